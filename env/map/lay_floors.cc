@@ -17,6 +17,7 @@
 #include <span>
 #include <utility>
 
+#include "base/error.h"
 #include "env/core/made_floors.h"
 #include "env/core/slopes.h"
 #include "env/core/standing.h"
@@ -32,8 +33,32 @@ struct Split {
   std::vector<Region> within, beyond;
 };
 
+// Bounds the work of all cuts of a site. A cut takes up to 25 ns for each pair of corners, as
+// nearly all of them may cross: some 10 s in all.
+class Work {
+ public:
+  // Before a cut. Throws InputError once they are too many together.
+  void Add(const std::vector<Region>& regions, const std::vector<Polygon>& covers) {
+    std::size_t corners = 0;
+    for (const Region& region : regions) {
+      corners += region.outer.size();
+      for (const Polygon& hole : region.holes) corners += hole.size();
+    }
+    for (const Polygon& cover : covers) corners += cover.size();
+    pairs_ += static_cast<double>(corners) * static_cast<double>(corners);
+    if (pairs_ > kMaxPairs)
+      throw InputError({}, "hazards", "",
+                       "too many corners lie on each other to cut the floors apart (400 hazards of "
+                       "5 corners on one place, or 2 of 2,000)");
+  }
+
+ private:
+  static constexpr double kMaxPairs = 5e8;
+  double pairs_ = 0;
+};
+
 // What of the regions these polygons cover, and the rest. Regions that they but touch are whole.
-Split SplitBy(const std::vector<Region>& regions, const std::vector<Polygon>& covers) {
+Split SplitBy(const std::vector<Region>& regions, const std::vector<Polygon>& covers, Work& work) {
   const auto without_touches = [](std::vector<Region> parts) {
     std::erase_if(parts, [](const Region& part) {
       double around_m = 0;
@@ -44,6 +69,7 @@ Split SplitBy(const std::vector<Region>& regions, const std::vector<Polygon>& co
     return parts;
   };
   if (covers.empty()) return {{}, regions};
+  work.Add(regions, covers);
   Split split;
   split.within = without_touches(Intersection(regions, covers));
   if (split.within.empty()) return {{}, regions};
@@ -71,12 +97,12 @@ LevelsBelow Below(std::size_t i, std::span<const MadeFloor* const> floors, bool 
 
 // The ground plan, divided among the last of the levels that hold it and the base floor.
 std::vector<Ground> Grounds(std::span<const Hazard> hazards, const LevelsBelow& levels,
-                            const Polygon& base) {
+                            const Polygon& base, Work& work) {
   std::vector<Ground> grounds;
   std::vector<Region> rest = {{base, {}}};
   for (const auto& [hazard, polygons] : levels) {
     if (rest.empty()) break;
-    Split split = SplitBy(rest, polygons);
+    Split split = SplitBy(rest, polygons, work);
     if (!split.within.empty())
       grounds.push_back({std::move(split.within), hazards[hazard].height_m});
     rest = std::move(split.beyond);
@@ -192,7 +218,7 @@ void AddOn(Solid solid, const Ground& ground, std::vector<Solid>& out) {
 // Adds what the floors leave of hazard i's solid, each part on its own ground; whether there are
 // several.
 bool LaySolid(const Solid& solid, std::span<const Hazard> hazards, std::size_t i,
-              MadeFloors& floors, std::vector<Solid>& laid) {
+              MadeFloors& floors, Work& work, std::vector<Solid>& laid) {
   const bool lies =
       (hazards[i].hazard_class == HazardClass::kTerrain || hazards[i].lies_on_floor) &&
       solid.kind != Solid::Kind::kSurface;
@@ -202,27 +228,27 @@ bool LaySolid(const Solid& solid, std::span<const Hazard> hazards, std::size_t i
   std::vector<Polygon> replaced;
   for (const MadeFloor* floor : near)
     if (floor->hazard > i && floor->replaces) replaced.push_back(floor->polygon);
-  const std::vector<Ground> grounds = Grounds(hazards, below, solid.base);
+  const std::vector<Ground> grounds = Grounds(hazards, below, solid.base, work);
   for (const Ground& ground : grounds)
-    AddOn(solid, {SplitBy(ground.regions, replaced).beyond, ground.floor_m}, laid);
+    AddOn(solid, {SplitBy(ground.regions, replaced, work).beyond, ground.floor_m}, laid);
   return grounds.size() > 1;
 }
 
 // Whether one of the solids is built where a slope of this hazard is.
-bool LiesOnSlopeOf(const Hazard& ramp, std::span<const Solid> solids) {
+bool LiesOnSlopeOf(const Hazard& ramp, std::span<const Solid> solids, Work& work) {
   return std::ranges::any_of(ramp.solids, [&](const Solid& slope) {
     return IsSlope(slope) && std::ranges::any_of(solids, [&](const Solid& solid) {
              return solid.kind == Solid::Kind::kPrism &&
                     Overlap(BoxAround(solid.base), BoxAround(slope.base)) &&
-                    !SplitBy({{solid.base, {}}}, {slope.base}).within.empty();
+                    !SplitBy({{solid.base, {}}}, {slope.base}, work).within.empty();
            });
   });
 }
 
-void WarnOfSlopes(std::span<const Hazard> hazards, std::vector<std::string>& warnings) {
+void WarnOfSlopes(std::span<const Hazard> hazards, Work& work, std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < hazards.size(); ++i)
     for (std::size_t ramp = 0; ramp < i; ++ramp)
-      if (LiesOnSlopeOf(hazards[ramp], hazards[i].solids))
+      if (LiesOnSlopeOf(hazards[ramp], hazards[i].solids, work))
         warnings.push_back(hazards[i].id + " lies on the slope of " + hazards[ramp].id +
                            ": it is built level, from the floor below the ramp");
 }
@@ -283,14 +309,14 @@ void Sort(std::vector<Hazard>& hazards) {
 
 // Sets the heights over the base floor of hazards that lie on others: on the highest of them.
 // Returns those that do not bend down to the lowest.
-std::vector<UnbentHazard> Lift(std::vector<Hazard>& hazards, MadeFloors& floors) {
+std::vector<UnbentHazard> Lift(std::vector<Hazard>& hazards, MadeFloors& floors, Work& work) {
   std::vector<UnbentHazard> unbent;
   for (std::size_t i = 0; i < hazards.size(); ++i) {
     Hazard& hazard = hazards[i];
     if (!hazard.lies_on_floor) continue;
     double highest_m = -std::numeric_limits<double>::infinity(), lowest_m = -highest_m;
     for (const Polygon& polygon : hazard.footprint)
-      for (const Ground& ground : Grounds(hazards, Below(i, floors.Near(polygon)), polygon)) {
+      for (const Ground& ground : Grounds(hazards, Below(i, floors.Near(polygon)), polygon, work)) {
         highest_m = std::max(highest_m, ground.floor_m);
         lowest_m = std::min(lowest_m, ground.floor_m);
       }
@@ -309,9 +335,10 @@ std::vector<UnbentHazard> Lift(std::vector<Hazard>& hazards, MadeFloors& floors)
 std::vector<UnbentHazard> LayFloors(std::vector<Hazard>& hazards,
                                     std::vector<std::string>& warnings) {
   Sort(hazards);
-  WarnOfSlopes(hazards, warnings);
+  Work work;
+  WarnOfSlopes(hazards, work, warnings);
   MadeFloors floors(hazards, MadeFloors::Levels::kBuilt);
-  std::vector<UnbentHazard> unbent = Lift(hazards, floors);
+  std::vector<UnbentHazard> unbent = Lift(hazards, floors, work);
   std::vector<std::string> across;  // from the last to the first
   for (std::size_t i = hazards.size(); i-- > 0;) {
     Hazard& hazard = hazards[i];
@@ -319,7 +346,7 @@ std::vector<UnbentHazard> LayFloors(std::vector<Hazard>& hazards,
     bool on_several = false;
     std::vector<Solid> laid;
     for (const Solid& solid : hazard.solids)
-      on_several |= LaySolid(solid, hazards, i, floors, laid);
+      on_several |= LaySolid(solid, hazards, i, floors, work, laid);
     hazard.solids = std::move(laid);
     if (on_several)
       across.push_back(hazard.id +

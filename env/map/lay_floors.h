@@ -28,7 +28,8 @@ struct UnbentHazard {
 // from the floor below the ramp; `warnings` names it. Footprints stay whole, so that a map without
 // its unknown hazards does not show where they lie. The solids must be as their types make them:
 // those that taper with a corner of `top` for each of `base`.
-// Returns the hazards that cannot be laid, since they do not bend so far (Hazard::bend_m).
+// Returns the hazards that cannot be laid, since they do not bend so far (Hazard::bend_m). Throws
+// InputError, without a file, if so much of them overlaps that the cuts would take too long.
 std::vector<UnbentHazard> LayFloors(std::vector<Hazard>& hazards,
                                     std::vector<std::string>& warnings);
 

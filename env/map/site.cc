@@ -162,9 +162,16 @@ void CheckOnMap(const ConfigNode& node, const std::string& key, const Vec2& p_W,
                        " and upper right " + shown(frame.X_WG * size));
 }
 
-void LayWrittenFloors(const std::vector<WrittenHazard>& hazards, Site& site) {
+void LayWrittenFloors(const std::vector<WrittenHazard>& hazards, const std::string& file,
+                      Site& site) {
   for (const WrittenHazard& written : hazards) site.map.hazards.push_back(written.hazard);
-  for (const UnbentHazard& unbent : LayFloors(site.map.hazards, site.warnings))
+  std::vector<UnbentHazard> unbent_ones;
+  try {
+    unbent_ones = LayFloors(site.map.hazards, site.warnings);
+  } catch (const InputError& e) {
+    throw InputError({file, 0}, "", "", e.what());
+  }
+  for (const UnbentHazard& unbent : unbent_ones)
     for (const WrittenHazard& written : hazards)
       if (written.hazard.id == unbent.id)
         throw InputError(
@@ -254,7 +261,7 @@ Site ReadSite(const ConfigNode& node, const fs::path& folder, const InputFiles& 
     site.files_read = {written.ros_map, ros.image};
     site.warnings = std::move(ros.warnings);
   }
-  LayWrittenFloors(written.hazards, site);
+  LayWrittenFloors(written.hazards, node.mark.file, site);
   if (map.start) CheckOnMap(node, "start", map.start->p(), map.frame);
   if (map.goal) CheckOnMap(node, "goal", *map.goal, map.frame);
   WarnOfFarHazards(site, node.mark.file);

@@ -251,6 +251,20 @@ TEST(LayFloors, WhatIsBuiltOnARampIsNamed) {
   EXPECT_TRUE(warned({ramp, far}).empty());
 }
 
+// Its time grows with the cube of their number: 600 would take minutes.
+TEST(LayFloors, ManyHazardsOnOnePlaceAreRefused) {
+  const auto lay = [](int n) {
+    std::vector<Hazard> hazards;
+    for (int i = 0; i < n; ++i)
+      hazards.push_back(
+          MakeOf("step", "{height_m: 0.01}", Rectangle({0.001 * i, 0}, {1 + 0.001 * i, 1})));
+    std::vector<std::string> warnings;
+    LayFloors(hazards, warnings);
+  };
+  EXPECT_NO_THROW(lay(100));
+  EXPECT_THROW(lay(600), InputError);
+}
+
 // The slopes round a carpet that is not convex are wedges: a groove takes its width of them, too.
 TEST(LayFloors, AGrooveAcrossACarpetTakesItsWidthOfTheSlopesToo) {
   const Polygon corner = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
