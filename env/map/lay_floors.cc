@@ -34,7 +34,7 @@ struct Split {
 };
 
 // Bounds the work of all cuts of a site. A cut takes up to 25 ns for each pair of corners, as
-// nearly all of them may cross: some 10 s in all.
+// nearly all of them may cross: some 5 s in all.
 class Work {
  public:
   // Before a cut. Throws InputError once they are too many together.
@@ -48,12 +48,12 @@ class Work {
     pairs_ += static_cast<double>(corners) * static_cast<double>(corners);
     if (pairs_ > kMaxPairs)
       throw InputError({}, "hazards", "",
-                       "too many corners lie on each other to cut the floors apart (400 hazards of "
+                       "too many corners lie on each other to cut the floors apart (250 hazards of "
                        "5 corners on one place, or 2 of 2,000)");
   }
 
  private:
-  static constexpr double kMaxPairs = 5e8;
+  static constexpr double kMaxPairs = 2e8;
   double pairs_ = 0;
 };
 

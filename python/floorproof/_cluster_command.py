@@ -93,6 +93,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--fail-fast", action="store_true", help="End at the first episode that fails (status 1)")
     add("--time-limit", type=float, metavar="S", help="Seconds of wall time")
     add("--json", action="store_true", help="Print summary.json on stdout instead of the rates")
+    add("--trust", action="store_true",
+        help="Let the scenario run the program that it names and read files outside its folder")
     add("--quiet", action="store_true", help="Print nothing but errors (and --json)")
     return parser
 
@@ -101,7 +103,7 @@ def _run(options: argparse.Namespace) -> int:
     overrides = list(options.set)
     if options.seed is not None:
         overrides.append(("seed", str(options.seed)))
-    scenario = Scenario((options.scenario, None, overrides, []))
+    scenario = Scenario((options.scenario, options.trust, None, overrides, []))
     made = campaign(
         scenario, options.n, out=options.out, engine="ray", episodes=options.episodes,
         resume=options.resume, retry_errors=options.retry_errors, fail_fast=options.fail_fast,

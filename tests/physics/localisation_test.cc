@@ -19,9 +19,11 @@ double ErrorOf(const TraceRow& row) {
 class Localisation : public RealMapTest {
  protected:
   // What init writes, but for a plan that keeps room for errors of its place everywhere; how much
-  // it covers then is not the question here.
+  // it covers then is not the question here. At 50 mm the rover could not leave its start in
+  // small_house.
   Scenario ReadRoomy(std::vector<Override> overrides = {}) const {
-    overrides.push_back({"plan.margin_m", "0.05"});
+    const bool narrow = GetParam().robot == "rover" && GetParam().map == "small_house";
+    overrides.push_back({"plan.margin_m", narrow ? "0.04" : "0.05"});
     overrides.push_back({"success.min_coverage", "0.5"});
     return ReadInit(overrides);
   }
