@@ -57,7 +57,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     Scenario scenario = ReadScenario(options->scenario, globals.Overrides(), globals.trust());
     std::vector<std::string> lines = Warnings(scenario);
     for (const std::string& warning : lines) globals.Say(warning);
-    if (const PlanCommand* program = ProgramToAsk(scenario)) globals.Say(ProgramLine(*program));
+    if (const std::string runs = ProgramAnnounced(scenario); !runs.empty()) globals.Say(runs);
     SayDrawn(scenario, globals);
     const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));

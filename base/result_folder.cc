@@ -96,10 +96,11 @@ void ResultFolder::RequireInPlace(std::initializer_list<std::string_view> writte
     throw InternalError(Printable(path.string()) +
                         ": was removed or moved while results were being written");
   };
-  struct stat locked {}, there {};
-  const bool same = lock_ < 0 || (fstat(lock_, &locked) == 0 &&
-                                  stat(folder_.c_str(), &there) == 0 &&
-                                  locked.st_dev == there.st_dev && locked.st_ino == there.st_ino);
+  struct stat locked {
+  }, there{};
+  const bool same =
+      lock_ < 0 || (fstat(lock_, &locked) == 0 && stat(folder_.c_str(), &there) == 0 &&
+                    locked.st_dev == there.st_dev && locked.st_ino == there.st_ino);
   if (!same) gone(folder_);
   for (const std::string_view name : written)
     if (!IsPlainFile(folder_ / name)) gone(folder_ / name);

@@ -139,7 +139,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   witness.There(" is as before");
   if (options.only_around.empty())
     for (const std::string& line : Warnings(s)) console.Say(line);
-  if (const PlanCommand* program = ProgramToAsk(s)) console.Say(ProgramLine(*program));
+  if (const std::string line = ProgramAnnounced(s); !line.empty()) console.Say(line);
   DriveResult result;
   Execution execution = witness.Watch();
   result.plan = std::move(execution.plan);

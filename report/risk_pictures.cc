@@ -140,7 +140,7 @@ std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
   std::vector<RiskOfPlan> plans;
   for (const std::string& file : files) {
     const Scenario scenario = ReadScenario(file, overrides, trust);
-    if (const PlanCommand* program = ProgramToAsk(scenario)) console.Say(ProgramLine(*program));
+    if (const std::string line = ProgramAnnounced(scenario); !line.empty()) console.Say(line);
     const PlanResult plan = MakePlan(scenario);
     if (plan.status != PlanStatus::kSuccess)
       throw InputError({file, 0}, "", "", "has no plan: " + plan.message);

@@ -32,11 +32,10 @@ nb::object HazardList(const HazardMap& map, std::optional<double> step_m) {
 }
 
 void WarnOfProgram(const Scenario& scenario) {
-  const PlanCommand* program = ProgramToAsk(scenario);
-  if (program == nullptr) return;
-  InPython("warnings.warn", [line = ProgramLine(*program)] {
-    Ask(nb::module_::import_("floorproof._warn").attr("warn"), line);
-  });
+  const std::string line = ProgramAnnounced(scenario);
+  if (line.empty()) return;
+  InPython("warnings.warn",
+           [&line] { Ask(nb::module_::import_("floorproof._warn").attr("warn"), line); });
 }
 
 }  // namespace floorproof

@@ -89,11 +89,8 @@ void SayPrograms(const ScenarioFile& file, CampaignObserver* observer) {
   std::set<std::string> said;
   for (const Variant& variant : file.variants()) {
     const Scenario s = file.Read(std::nullopt, variant);
-    const PlanCommand* program = ProgramToAsk(s);
-    if (program == nullptr) continue;
-    CheckProgram(*program, s.files);
-    const std::string line = ProgramLine(*program);
-    if (said.insert(line).second && observer) observer->OnWarning(line);
+    const std::string line = ProgramAnnounced(s);
+    if (!line.empty() && said.insert(line).second && observer) observer->OnWarning(line);
   }
 }
 

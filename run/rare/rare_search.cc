@@ -95,9 +95,8 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
         "here");
   EpisodeMaker maker(file);
   const CampaignAbout about = Describe(file, request);
-  if (const PlanCommand* program = ProgramToAsk(base)) {
-    CheckProgram(*program, base.files);
-    warn(ProgramLine(*program));
+  if (const std::string line = ProgramAnnounced(base); !line.empty()) {
+    warn(line);
   } else {
     const PlanResult& plan =
         maker.PlanDrawn(RareTrials::TrialVariant(), 0,

@@ -409,6 +409,13 @@ const PlanCommand* ProgramToAsk(const Scenario& s) {
   return s.plan_command && s.plan_file.empty() ? &*s.plan_command : nullptr;
 }
 
+std::string ProgramAnnounced(const Scenario& s) {
+  const PlanCommand* program = ProgramToAsk(s);
+  if (program == nullptr) return "";
+  CheckProgram(*program, s.files);
+  return ProgramLine(*program);
+}
+
 void RefuseProgram(const Scenario& s) {
   if (const PlanCommand* program = ProgramToAsk(s))
     throw InputError(program->mark, "plan.command", program->words.front(),

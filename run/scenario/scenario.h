@@ -186,6 +186,10 @@ Configurable* PlannerOf(const Scenario& scenario);
 // The program that is yet to be asked for its plan; nullptr: none is run.
 const PlanCommand* ProgramToAsk(const Scenario& scenario);
 
+// The line to print before that program is run (ProgramLine); empty: none is. Throws as
+// CheckProgram.
+std::string ProgramAnnounced(const Scenario& scenario);
+
 // Of whoever drives again what somebody sent, and must not come to run that somebody's program.
 // Throws InputError where one is yet to be asked.
 void RefuseProgram(const Scenario& scenario);

@@ -54,6 +54,23 @@ plan: {planner: boustrophedon}
   Result Run(const std::string& arguments) const { return RunProgram(folder_, arguments); }
 };
 
+TEST_F(Cli, AProgramOfAnUntrustedScenarioIsNamedInTheRefusalAlone) {
+  std::ofstream(folder_ / "p.sh") << "#!/bin/sh\necho asked >> log\n";
+  fs::permissions(folder_ / "p.sh", fs::perms::owner_all);
+  std::string text = Slurp(folder_ / "s.yaml");
+  text.replace(text.find("{planner: boustrophedon}"), 24, "{command: [./p.sh, --fast]}");
+  std::ofstream(folder_ / "s.yaml") << text;
+  for (const std::string command :
+       {"plan s.yaml", "run s.yaml", "campaign s.yaml -n 1 --set gate=none"}) {
+    const Result dut = Run(command + " --out o");
+    EXPECT_EQ(dut.status, 2) << command;
+    EXPECT_THAT(dut.err, HasSubstr("plan.command = ./p.sh --fast: is a program that the scenario "
+                                   "names: --trust runs it"));
+    EXPECT_THAT(dut.out + dut.err, Not(HasSubstr("runs a program"))) << command;
+    EXPECT_FALSE(fs::exists(folder_ / "log")) << command;
+  }
+}
+
 // Neither is a program run that came in somebody's folder.
 TEST_F(Cli, AProgramThatPlansIsNamedBeforeItIsRunAndNeverRunByReplay) {
   std::ofstream(folder_ / "p.sh") << "#!/bin/sh\necho asked >> log; cp there \"$1\"/plan.csv\n";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are no robots, meshes or pictures, named where one belongs. What is in them is
-// nobody's to print: a user may have named another file by mistake, and a service runs files of
-// others.
+// Files of other kinds in the place of robots, meshes and pictures. Error lines quote nothing of
+// them: a user may name another file by mistake, and a service runs the files of others.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever a stranger's files hold, every command ends by itself within bounds of time and memory,
-// says why in one printable line, shows no secret, and writes nowhere but where it was told to.
+// With hostile files every command ends by itself within bounds of time and memory, prints the
+// reason in one printable line, shows no secret, and writes only into its output folder.
 //
 // FLOORPROOF_HOSTILE_SECONDS: for so long, with seeds from FLOORPROOF_HOSTILE_SEED on (default: the
 // time), instead of the few of the quick test. A failure names the kind and the seed;
@@ -81,7 +81,7 @@ class Hostile : public OwnFolderTest, public ::testing::WithParamInterface<std::
       }
     }
     EXPECT_THAT(dut.err, Not(HasSubstr("exception")));
-    EXPECT_EQ(Outside(), before) << "it wrote where it was not told to";
+    EXPECT_EQ(Outside(), before) << "it wrote outside its folder";
   }
 };
 

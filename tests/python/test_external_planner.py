@@ -2,6 +2,7 @@
 """A planner that is any program is named, as a warning, before it is run."""
 from __future__ import annotations
 
+import json
 import sys
 import warnings
 from pathlib import Path
@@ -52,6 +53,19 @@ def scenario(room: Dict[str, Any], asked: Path, tmp_path: Path) -> floorproof.Sc
                        "printf 'x_m,y_m\\n1,1\\n1.2,1\\n' > \"$1\"/plan.csv\n", encoding="utf-8")
     program.chmod(0o755)
     return floorproof.load({**room, "plan": {"command": ["./plan.sh"]}}, folder=tmp_path)
+
+
+def test_of_a_file_it_is_started_only_with_trust(room: Dict[str, Any], scenario: floorproof.Scenario,
+                                                 asked: Path, tmp_path: Path) -> None:
+    file = tmp_path / "scenario.yaml"
+    file.write_text(json.dumps({**room, "plan": {"command": ["./plan.sh"]}}), encoding="utf-8")
+    with pytest.raises(floorproof.InputError, match=r"plan.command = ./plan.sh: .*--trust"):
+        floorproof.load(file).plan()
+    assert not asked.exists()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assert floorproof.load(file, trust=True).plan().status == "success"
+    assert asked.exists()
 
 
 def test_it_is_named_at_the_line_that_asks(call: Call, scenario: floorproof.Scenario, asked: Path,
