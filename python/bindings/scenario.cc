@@ -81,7 +81,8 @@ nb::dict SiteDict(const HazardMap& map, std::optional<double> step_m = {}) {
 // A site by itself: `text` None: the file's.
 nb::dict ReadSiteAlone(const fs::path& file, const std::optional<std::string>& text) {
   const InputFiles files;
-  const ConfigNode node = text ? ParseYaml(*text, file.string()) : ReadYamlFile(file, files, "site");
+  const ConfigNode node =
+      text ? ParseYaml(*text, file.string()) : ReadYamlFile(file, files, "site");
   const ConfigNode site = GeneratedSite(node, 0, 0);
   return SiteDict(ReadSite(site, file.parent_path(), files).map);
 }

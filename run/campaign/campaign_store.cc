@@ -237,8 +237,9 @@ void CampaignStore::RequireInPlace() const {
   int moved = 0;
   sqlite3_file_control(db_, "main", SQLITE_FCNTL_HAS_MOVED, &moved);
   if (moved != 0)
-    throw InternalError(Printable(file_.string()) +
-                        ": was removed or moved while it was being written, with the episodes in it");
+    throw InternalError(
+        Printable(file_.string()) +
+        ": was removed or moved while it was being written, with the episodes in it");
 }
 
 void CampaignStore::Add(std::span<const EpisodeRow> rows) {

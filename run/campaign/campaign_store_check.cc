@@ -9,10 +9,10 @@
 #include "base/error.h"
 #include "base/file_output.h"
 #include "base/printable.h"
-#include "run/episode/bounded_json.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_tables.h"
 #include "run/campaign/drive_campaign.h"
+#include "run/episode/bounded_json.h"
 
 namespace floorproof {
 namespace {

@@ -72,8 +72,8 @@ class JsonValue {
 };
 
 // The file's object. Throws InputError if it cannot be read, or is not a JSON object of at most 100
-// levels and 20,000 keys an object: "FILE: is not WHAT (a JSON object)". `adapt` brings what earlier versions wrote up to
-// date.
+// levels and 20,000 keys an object: "FILE: is not WHAT (a JSON object)". `adapt` brings what
+// earlier versions wrote up to date.
 JsonValue ReadJsonFile(const std::filesystem::path& file, std::string_view what,
                        std::uintmax_t most_bytes, void (*adapt)(JsonValue::Json&) = nullptr);
 
