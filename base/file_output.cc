@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 
+#include "base/input_file.h"
 #include "base/interrupt.h"
 
 namespace floorproof {
@@ -118,6 +119,9 @@ bool IsSha256(std::string_view text) {
 }
 
 std::string Sha256OfFile(const std::filesystem::path& path) {
+  constexpr std::uintmax_t kAny = std::uintmax_t{1} << 50;
+  if (const std::string why = WhyUnreadable(path, kAny); !why.empty())
+    throw InputError({path.string(), 0}, "", "", why);
   char hex[SHA256_DIGEST_STRING_LENGTH];
   if (SHA256File(path.c_str(), hex) == nullptr)
     throw InputError({path.string(), 0}, "", "", "cannot be read");

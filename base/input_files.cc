@@ -48,14 +48,20 @@ struct InputFiles::Shared {
   std::string WhyOutOfReach(const fs::path& file) const {
     if (confined_to.empty()) return "";
     const fs::path path = Resolved(file);
-    const auto allows = [&](const fs::path& place) { return LiesBelow(place, path); };
+    const auto is_hidden_in = [&](const fs::path& place) {
+      return std::ranges::any_of(path.lexically_relative(place), [](const fs::path& part) {
+        return part.native().starts_with('.') && part != ".";
+      });
+    };
+    const auto allows = [&](const fs::path& place) {
+      return LiesBelow(place, path) && !is_hidden_in(place);
+    };
     if (std::ranges::any_of(allowed, allows)) return "";
     const std::string trusted = " (--trust reads it all the same)";
     if (!LiesBelow(confined_to, path))
       return "lies outside the scenario's folder, " + confined_to.string() + trusted;
-    for (const fs::path& part : path.lexically_relative(confined_to))
-      if (part.native().starts_with('.') && part != ".")
-        return "is a hidden file of the scenario's folder, or in one" + trusted;
+    if (is_hidden_in(confined_to))
+      return "is a hidden file of the scenario's folder, or in one" + trusted;
     return "";
   }
 

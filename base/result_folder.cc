@@ -171,6 +171,35 @@ void RefuseToReplace(std::span<const fs::path> inputs, const fs::path& file) {
       throw InputError({file.string(), 0}, "", "", "is read: --out names another file");
 }
 
+void RequirePlainResults(const fs::path& folder) {
+  constexpr std::string_view kFolders[] = {"episodes", "inputs", "likeliest", "plans"};
+  constexpr std::string_view kFiles[] = {"scenario.resolved.yaml", "fmea_measured.yaml",
+                                         "junit.xml", kList};
+  constexpr std::string_view kEndings[] = {".json", ".csv", ".png", ".mp4",
+                                           ".html", ".bin", ".pgm", ".sqlite"};
+  const auto require = [](const fs::directory_entry& entry) {
+    std::error_code ignored;
+    const fs::file_type type = entry.symlink_status(ignored).type();
+    if (type != fs::file_type::regular && type != fs::file_type::directory)
+      throw InputError({entry.path().string(), 0}, "", "",
+                       type == fs::file_type::symlink
+                           ? "is a link: results are files and folders"
+                           : "is a pipe or a device: results are files and folders");
+  };
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string(), ending = entry.path().extension();
+    const bool holds_results = std::ranges::find(kFolders, name) != std::end(kFolders);
+    const bool is_result = std::ranges::find(kFiles, name) != std::end(kFiles) ||
+                           std::ranges::find(kEndings, ending) != std::end(kEndings);
+    if (!holds_results && !is_result) continue;
+    require(entry);
+    if (!holds_results || !entry.is_directory(ignored)) continue;
+    for (const auto& below : fs::recursive_directory_iterator(entry.path(), ignored))
+      require(below);
+  }
+}
+
 void RefuseLinks(const fs::path& root, const fs::path& below) {
   fs::path at = root;
   for (const fs::path& part : below.lexically_relative(root)) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/input_file.h"
+#include "run/campaign/replay_shelf.h"
 
 namespace floorproof {
 namespace {
@@ -68,7 +69,7 @@ void AddFilms(const fs::path& folder,
               Report& report) {
   std::uintmax_t embedded = 0;
   for (const VariantSummary& variant : report.summary.variants)
-    for (const std::uint64_t id : Filmed(folder / "episodes" / variant.name)) {
+    for (const std::uint64_t id : Filmed(EpisodeFolder(folder, variant.name, 0).parent_path())) {
       if (report.films.size() == kMaxFilms) {
         ++report.films_left_out;
         continue;

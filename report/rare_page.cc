@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "base/result_folder.h"
 #include "base/words.h"
 #include "report/films.h"
 #include "report/html.h"
@@ -276,6 +277,7 @@ RarePage MakeRarePage(const fs::path& folder) {
     throw InputError({file.string(), 0}, "", "",
                      "no such file: the search has no answer yet; the same `rare` with --resume "
                      "goes on");
+  RequirePlainResults(folder);
   const JsonValue rare = ReadJsonFile(file, "an answer of floorproof rare", kMost);
   if (rare.value("rare", 0) != 1)
     throw InputError({file.string(), 0}, "rare", "", "must be 1: not an answer of this version");

@@ -41,11 +41,13 @@ void RenameMetrics(nlohmann::ordered_json& result) {
 }  // namespace
 
 JsonValue ReadResult(const fs::path& file) {
+  RequirePlainResults(file.parent_path());
   return ReadJsonFile(file, "a result", kMaxResultBytes, RenameMetrics);
 }
 
 nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Override>& overrides,
                                  Trust trust, bool video, const Console& console) {
+  RequirePlainResults(folder);
   Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", overrides, trust);
   RefuseProgram(scenario);
   const fs::path result_file = folder / "result.json";

@@ -11,6 +11,7 @@
 #include "base/file_output.h"
 #include "base/input_files.h"
 #include "base/printable.h"
+#include "base/result_folder.h"
 #include "run/campaign/campaign_tables.h"
 
 namespace floorproof {
@@ -191,6 +192,7 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
   if (fs::file_size(file, ignored) > kMaxFile_bytes)
     throw InputError({file.string(), 0}, "", "",
                      "is larger than " + std::to_string(kMaxFile_bytes >> 30) + " GiB");
+  RequirePlainResults(file.parent_path().empty() ? "." : file.parent_path());
   // Looked through read-only first: opening a damaged file for writing could change it.
   CampaignStore store = Connect(file, SQLITE_OPEN_READONLY);
   store.Check();

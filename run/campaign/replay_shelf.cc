@@ -3,6 +3,7 @@
 
 #include <charconv>
 
+#include "base/error.h"
 #include "base/file_output.h"
 #include "base/result_folder.h"
 
@@ -21,6 +22,8 @@ ResultNames ReplayResults() {
 
 fs::path EpisodeFolder(const fs::path& campaign, const std::string& variant,
                        std::uint64_t episode) {
+  if (variant.find('/') != std::string::npos || variant == "." || variant == "..")
+    throw InputError({campaign.string(), 0}, "variant", variant, "must not lead out of its folder");
   return campaign / "episodes" / variant / std::to_string(episode);
 }
 

@@ -41,7 +41,9 @@ fs::path ProjectFolder(const fs::path& file) {
 void ConfineScenario(const fs::path& file, const InputFiles& files) {
   const fs::path models = ModelsFolder();
   if (LiesBelow(FolderOf(models / "file"), FolderOf(file))) return;
-  files.Confine(ProjectFolder(file));
+  // The settings of results have copies of their inputs beside them.
+  const bool recorded = file.filename() == "scenario.resolved.yaml";
+  files.Confine(recorded ? FolderOf(file) : ProjectFolder(file));
   files.Allow(file);
   files.Allow(models);
 }

@@ -75,6 +75,21 @@ TEST_F(TrustTest, NorHiddenFiles) {
   EXPECT_EQ(Refusal({}, Trust::kFull), "");
 }
 
+// A robot or a site that the user typed opens its folder, and not what is hidden there.
+TEST_F(TrustTest, NorHiddenFilesBesideWhatWasTyped) {
+  fs::copy_file(SourceFile("models/beluga.xml"), folder_ / "in/mine.xml");
+  Write(".hidden/plan.csv");
+  EXPECT_THAT(Refusal({{"robot", (folder_ / "in/mine.xml").string()}}), HasSubstr("hidden"));
+}
+
+TEST_F(TrustTest, SettingsOfResultsReadTheirFolderAlone) {
+  fs::create_directory(folder_ / ".git");
+  Write("../out.csv");
+  EXPECT_EQ(Refusal(), "");
+  fs::copy_file(folder_ / "in/s.yaml", folder_ / "in/scenario.resolved.yaml");
+  EXPECT_THROW(ReadScenario(folder_ / "in/scenario.resolved.yaml"), InputError);
+}
+
 TEST_F(TrustTest, NorFilesOfTheKernelAtAll) {
   Write("/proc/self/environ");
   EXPECT_THAT(Refusal(), IsOutside());
