@@ -42,9 +42,9 @@ class InitFolder {
  public:
   explicit InitFolder(fs::path folder) : folder_(std::move(folder)) {}
 
-  // How the site names this map.
+  // How the site names this map; empty: where it lies.
   std::string MapKey(const fs::path& map) {
-    if (IsInReach(map)) return PathFrom(folder_, map);
+    if (IsInReach(map)) return "";
     const InputFiles inputs;
     const fs::path image = ReadRosMap(map, inputs).image;
     ConfigNode keys = ReadYamlFile(map, inputs, "image");
@@ -79,8 +79,9 @@ class InitFolder {
   static constexpr std::uintmax_t kMaxCopyBytes = 256u << 20;
 
   bool IsInReach(const fs::path& file) const {
-    return LiesBelow(ProjectFolder(folder_ / "scenario.yaml"),
-                     fs::weakly_canonical(fs::absolute(file)));
+    const InputFiles untrusted;
+    ConfineScenario(folder_ / "scenario.yaml", untrusted);
+    return untrusted.WhyUnreadable(file, kMaxCopyBytes).empty();
   }
 
   fs::path folder_;

@@ -525,6 +525,14 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
     EXPECT_THAT(refused.err, HasSubstr(why)) << command;
   }
 
+  // A map that an untrusted scenario could not read is copied.
+  fs::create_directories(folder_ / "mine4/.maps");
+  for (const char* file : {"map.yaml", "map.pgm"})
+    fs::copy_file(folder_ / file, folder_ / "mine4/.maps" / file);
+  ASSERT_EQ(Run("init mine4/.maps/map.yaml --out mine4").status, 0);
+  EXPECT_THAT(Slurp(folder_ / "mine4/site.yaml"), HasSubstr("map: \"map.yaml\""));
+  EXPECT_EQ(Run("plan mine4/scenario.yaml --out own").status, 0);
+
   // A robot of one's own, named from where one is; and what two maps give does not meet.
   fs::create_directories(folder_ / "mine2/robots");
   fs::copy_file(SourceFile("models/beluga.xml"), folder_ / "my.xml");
