@@ -96,6 +96,13 @@ std::string ReadInputFile(const fs::path& file, std::uintmax_t most_bytes) {
   return Read(file, std::numeric_limits<std::uintmax_t>::max(), most_bytes);
 }
 
+fs::path ResolvedPath(const fs::path& path) {
+  std::error_code error;
+  fs::path resolved = fs::weakly_canonical(fs::absolute(path), error);
+  // A loop of links: the reader reports it.
+  return error ? fs::absolute(path).lexically_normal() : resolved;
+}
+
 bool LiesBelow(const fs::path& folder, const fs::path& path) {
   return std::ranges::mismatch(folder, path).in1 == folder.end();
 }

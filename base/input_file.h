@@ -19,7 +19,9 @@ std::string WhyUnreadable(const std::filesystem::path& file, std::uintmax_t most
 // Whether it is a plain file and no link, which could lead to a file that is nobody's to show.
 bool IsPlainFile(const std::filesystem::path& file);
 
-// Whether a path is `folder` or lies below it, as both are written: neither is looked for.
+// The absolute path without links, as far as it exists.
+std::filesystem::path ResolvedPath(const std::filesystem::path& path);
+// Whether a path is `folder` or lies below it, as both are written: the disk is not asked.
 bool LiesBelow(const std::filesystem::path& folder, const std::filesystem::path& path);
 
 // Of a file that the program wrote and reads again.

@@ -36,18 +36,10 @@ struct InputFiles::Shared {
   fs::path confined_to;           // empty: nothing is out of reach
   std::vector<fs::path> allowed;  // beside it
 
-  // Without links, as far as it is there.
-  static fs::path Resolved(const fs::path& file) {
-    std::error_code error;
-    fs::path path = fs::weakly_canonical(fs::absolute(file), error);
-    // A loop of links: the reader reports it.
-    return error ? fs::absolute(file).lexically_normal() : path;
-  }
-
   // Why a file is out of reach, whether it is there or not; empty when it is not.
   std::string WhyOutOfReach(const fs::path& file) const {
     if (confined_to.empty()) return "";
-    const fs::path path = Resolved(file);
+    const fs::path path = ResolvedPath(file);
     const auto is_hidden_in = [&](const fs::path& place) {
       return std::ranges::any_of(path.lexically_relative(place), [](const fs::path& part) {
         return part.native().starts_with('.') && part != ".";
@@ -68,22 +60,24 @@ struct InputFiles::Shared {
   Input& At(const fs::path& file) {
     Input*& known = spellings[file.string()];
     if (known == nullptr) {
-      known = &inputs[Resolved(file)];
+      known = &inputs[ResolvedPath(file)];
       if (known->named.empty()) known->named = file;
     }
     return *known;
   }
 
-  void RefuseOutOfReach(const fs::path& file) const {
-    if (const std::string why = WhyOutOfReach(file); !why.empty())
-      throw InputError({file.string(), 0}, "", "", why);
+  // Where the bytes of `file` are to be read from. Throws InputError if that is out of reach.
+  const fs::path& SourceOf(const Input& input, const fs::path& file) const {
+    const fs::path& source = input.copy.empty() ? file : input.copy;
+    if (const std::string why = WhyOutOfReach(source); !why.empty())
+      throw InputError({source.string(), 0}, "", "", why);
+    return source;
   }
 
   const std::string& Bytes(const fs::path& file, std::uintmax_t most_bytes) {
     Input& input = At(file);
     if (!input.bytes) {
-      RefuseOutOfReach(input.copy.empty() ? file : input.copy);
-      std::string bytes = ReadInputFile(input.copy.empty() ? file : input.copy, most_bytes);
+      std::string bytes = ReadInputFile(SourceOf(input, file), most_bytes);
       std::string hash = floorproof::Sha256(bytes);
       if (!input.copy.empty() && hash != input.sha256)
         throw InputError({input.copy.string(), 0}, "", "",
@@ -111,9 +105,7 @@ std::string InputFiles::ReadStart(const fs::path& file, std::size_t count,
   const std::lock_guard alone(shared_->mutex);
   const Shared::Input& input = shared_->At(file);
   if (input.bytes) return input.bytes->substr(0, count);
-  const fs::path& read = input.copy.empty() ? file : input.copy;
-  shared_->RefuseOutOfReach(read);
-  return ReadStartOfFile(read, count, most_bytes);
+  return ReadStartOfFile(shared_->SourceOf(input, file), count, most_bytes);
 }
 
 std::string InputFiles::WhyUnreadable(const fs::path& file, std::uintmax_t most_bytes) const {
@@ -136,11 +128,10 @@ std::uintmax_t InputFiles::Size(const fs::path& file) const {
   const std::lock_guard alone(shared_->mutex);
   const Shared::Input& input = shared_->At(file);
   if (input.bytes) return input.bytes->size();
-  const fs::path& read = input.copy.empty() ? file : input.copy;
-  shared_->RefuseOutOfReach(read);
+  const fs::path& source = shared_->SourceOf(input, file);
   std::error_code error;
-  const std::uintmax_t size = fs::file_size(read, error);
-  if (error) throw InputError({read.string(), 0}, "", "", "cannot be read: " + error.message());
+  const std::uintmax_t size = fs::file_size(source, error);
+  if (error) throw InputError({source.string(), 0}, "", "", "cannot be read: " + error.message());
   return size;
 }
 
@@ -183,12 +174,12 @@ std::vector<std::pair<std::string, std::string>> InputFiles::Named() const {
 
 void InputFiles::Confine(const fs::path& folder) const {
   const std::lock_guard alone(shared_->mutex);
-  shared_->confined_to = Shared::Resolved(folder);
+  shared_->confined_to = ResolvedPath(folder);
 }
 
 void InputFiles::Allow(const fs::path& place) const {
   const std::lock_guard alone(shared_->mutex);
-  if (!shared_->confined_to.empty()) shared_->allowed.push_back(Shared::Resolved(place));
+  if (!shared_->confined_to.empty()) shared_->allowed.push_back(ResolvedPath(place));
 }
 
 bool InputFiles::confined() const {

@@ -49,8 +49,7 @@ class InputFiles {
   // where it was allowed, links followed. Hidden files and folders below `folder` (.git, .ssh) are
   // out of reach too. Before Allow.
   void Confine(const std::filesystem::path& folder) const;
-  // A file, or a folder with what is below it and not hidden. Of no effect where nothing is
-  // confined.
+  // Lets a file be read, or a folder's files but for hidden ones. Does nothing unless confined.
   void Allow(const std::filesystem::path& place) const;
   bool confined() const;
 

@@ -15,7 +15,6 @@
 #include "base/fork.h"
 #include "base/input_file.h"
 #include "base/interrupt.h"
-#include "base/printable.h"
 
 namespace floorproof {
 namespace {
@@ -93,11 +92,10 @@ void ResultFolder::Begin() {
 
 void ResultFolder::RequireInPlace(std::initializer_list<std::string_view> written) const {
   const auto gone = [](const fs::path& path) {
-    throw InternalError(Printable(path.string()) +
-                        ": was removed or moved while results were being written");
+    throw InternalError(path.string() + ": was removed or moved while results were being written");
   };
-  struct stat locked {
-  }, there{};
+  struct stat locked {};
+  struct stat there {};
   const bool same =
       lock_ < 0 || (fstat(lock_, &locked) == 0 && stat(folder_.c_str(), &there) == 0 &&
                     locked.st_dev == there.st_dev && locked.st_ino == there.st_ino);
@@ -187,7 +185,7 @@ void RequirePlainResults(const fs::path& folder) {
                            : "is a pipe or a device: results are files and folders");
   };
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored)) {
     const std::string name = entry.path().filename().string(), ending = entry.path().extension();
     const bool holds_results = std::ranges::find(kFolders, name) != std::end(kFolders);
     const bool is_result = std::ranges::find(kFiles, name) != std::end(kFiles) ||

@@ -72,9 +72,9 @@ class ResultFolder {
 void RefuseToReplace(std::span<const std::filesystem::path> inputs,
                      const std::filesystem::path& file);
 
-// Before results that somebody else may have sent are read: throws InputError if a result, or
-// anything in the folders of results below (episodes, inputs, likeliest, plans), is a link, a pipe
-// or a device. Other files and folders may lie beside them.
+// To call before untrusted results are read: throws InputError if a result, or an entry of the
+// folders of results (episodes, inputs, likeliest, plans), is a link, a pipe or a device. Other
+// files and folders may lie beside them.
 void RequirePlainResults(const std::filesystem::path& folder);
 
 // Throws InputError where a folder on the way from `root` to `below` is a link: what is written

@@ -69,15 +69,14 @@ void AddFilms(const fs::path& folder,
               Report& report) {
   std::uintmax_t embedded = 0;
   for (const VariantSummary& variant : report.summary.variants)
-    for (const std::uint64_t id : Filmed(EpisodeFolder(folder, variant.name, 0).parent_path())) {
+    for (const std::uint64_t id : Filmed(VariantFolder(folder, variant.name))) {
       if (report.films.size() == kMaxFilms) {
         ++report.films_left_out;
         continue;
       }
-      const fs::path from = fs::path("episodes") / variant.name / std::to_string(id);
-      const fs::path file = folder / from / "video.mp4";
+      const fs::path from = EpisodeFolder(folder, variant.name, id), file = from / "video.mp4";
       ReportFilm film{.variant = variant.name, .what = what(variant.name, id), .episode = id};
-      film.path = (from / "video.mp4").generic_string();
+      film.path = file.lexically_relative(folder).generic_string();
       std::error_code ignored;
       const std::uintmax_t size = fs::file_size(file, ignored);
       film.megabytes = static_cast<double>(size) / 1e6;
@@ -85,8 +84,8 @@ void AddFilms(const fs::path& folder,
         film.mp4 = ReadInputFile(file, kLargestFilm);
         embedded += size;
       }
-      film.frames = PicturesIn(folder / from, "frame_");
-      film.maps = PicturesIn(folder / from, "heatmap_");
+      film.frames = PicturesIn(from, "frame_");
+      film.maps = PicturesIn(from, "heatmap_");
       report.films.push_back(std::move(film));
     }
 }

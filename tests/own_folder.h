@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "tests/test_name.h"
@@ -19,6 +20,11 @@ class OwnFolderTest : public ::testing::Test {
     std::filesystem::create_directories(folder_);
   }
   ~OwnFolderTest() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path Save(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return folder_ / name;
+  }
 
   const std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / TestName();
 };

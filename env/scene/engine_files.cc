@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/input_file.h"
 
 namespace floorproof {
 namespace {
@@ -17,10 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMaxBytesOfAll = 256u << 20;
-
-bool IsBelow(const fs::path& folder, const fs::path& file) {
-  return std::ranges::mismatch(folder, file).in1 == folder.end();
-}
 
 }  // namespace
 
@@ -62,7 +59,7 @@ struct EngineFiles::Served {
   std::string WhyNot(const fs::path& file) const {
     std::error_code error;
     if (file != model && !files.HasStandIn(file) &&
-        !IsBelow(folder, fs::weakly_canonical(file, error)))
+        !LiesBelow(folder, fs::weakly_canonical(file, error)))
       return "lies outside the folder of the robot's file";
     const bool again = std::ranges::find(opened, file) != opened.end();
     if (again && file == model) return "is the robot's file itself";
@@ -75,7 +72,7 @@ struct EngineFiles::Served {
   // As short as it can be written in the model.
   std::string NameOf(const fs::path& file) const {
     const fs::path from = model.parent_path();
-    return IsBelow(from, file) ? file.lexically_relative(from).string() : file.string();
+    return LiesBelow(from, file) ? file.lexically_relative(from).string() : file.string();
   }
   static int Read(mjResource* resource, const void** buffer) {
     const auto* bytes = static_cast<const std::string*>(resource->data);

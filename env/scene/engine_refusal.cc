@@ -4,6 +4,8 @@
 #include <charconv>
 #include <string>
 
+#include "base/printable.h"
+
 namespace floorproof {
 namespace {
 
@@ -11,7 +13,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSpace = " \t\r\n";
 
-// "Line number=3" of the XML parser, or what ends a message: "line 3". Takes the latter out.
+// The number in "Line number=3", as the XML parser writes it, or in "line 3" at a message's end,
+// which is removed.
 int TakeLine(std::string& message) {
   const std::size_t last = message.find_last_not_of(kSpace);
   message.resize(last == message.npos ? 0 : last + 1);
@@ -51,14 +54,10 @@ std::string WithoutFolder(std::string message, const fs::path& file) {
 std::string Shortened(std::string_view message) {
   constexpr std::size_t kMost = 60;
   std::string out;
-  const auto add = [&](std::string_view value) {
-    out += value.size() <= kMost ? value : value.substr(0, kMost - 3);
-    if (value.size() > kMost) out += "...";
-  };
   while (!message.empty()) {
     const bool quoted = message.front() == '\'';
     const std::size_t end = quoted ? message.find('\'', 1) : message.find_first_of(" \n");
-    add(message.substr(0, end));
+    out += CutEnd(message.substr(0, end), kMost);
     if (end == message.npos) break;
     out += quoted ? '\'' : ' ';
     message.remove_prefix(end + 1);

@@ -10,8 +10,8 @@
 namespace floorproof {
 
 // "FILE:LINE: RULE: MESSAGE". MuJoCo names lines of the file itself alone: an error within an
-// include has none. Files below the model's folder are named relative to it, and what the message
-// quotes of the model is cut to 60 characters.
+// include has none. Files below the model's folder are named relative to it, and quotes from the
+// model are cut to 60 characters.
 InputError EngineRefusal(const std::filesystem::path& file, std::string_view rule,
                          std::string_view message);
 

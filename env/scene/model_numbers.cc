@@ -256,7 +256,7 @@ class Check {
     return {element, name != nullptr ? name : "", LineOf(type, id)};
   }
 
-  // Of the element in the file; 0: in a file that it includes, or not known.
+  // The element's line in the file; 0: unknown, or in an included file.
   int LineOf(mjtObj type, int id) const {
     for (mjsElement* e = mjs_firstElement(spec_, type); e; e = mjs_nextElement(spec_, e)) {
       if (mjs_getId(e) != id) continue;

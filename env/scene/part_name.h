@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/printable.h"
+
 namespace floorproof {
 
 // "geom 'belly' mass"; "geom mass" where the element has no name. A long name is cut, so that the
@@ -13,10 +15,7 @@ inline std::string PartName(std::string_view element, std::string_view name,
                             std::string_view attribute) {
   constexpr std::size_t kMaxOfAName = 30;
   std::string out(element);
-  if (name.size() > kMaxOfAName)
-    out += " '" + std::string(name.substr(0, kMaxOfAName - 3)) + "...'";
-  else if (!name.empty())
-    out += " '" + std::string(name) + "'";
+  if (!name.empty()) out += " '" + CutEnd(name, kMaxOfAName) + "'";
   return out + " " + std::string(attribute);
 }
 

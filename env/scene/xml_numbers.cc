@@ -12,7 +12,6 @@ namespace floorproof {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\v\f";
-constexpr std::size_t kMaxShown = 60;  // characters of a number
 constexpr std::string_view kNotFinite = "must be a finite number",
                            kTooLarge = "must be at most 1e150, so that its square is finite";
 
@@ -29,7 +28,7 @@ constexpr std::string_view kTexts[] = {
     "target",   "tendon",       "tendon1",   "tendon2", "texture",    "texturedir"};
 
 bool IsText(const XmlElement& element, std::string_view attribute) {
-  // Colours and sizes of what is drawn: `joint` is a colour there.
+  // Colours and sizes of drawings: `joint` is a colour there.
   if (element.name == "rgba" || element.name == "scale") return false;
   if (element.name == "text" && attribute == "data") return true;
   if (element.name == "config" && attribute == "value") return true;  // of a plugin
@@ -57,7 +56,6 @@ BadNumber FirstBad(const std::string& value, bool may_be_infinite) {
       at = value.find_first_not_of(kSpace, end);
       continue;
     }
-    if (token.size() > kMaxShown) token = token.substr(0, kMaxShown - 3) + "...";
     return {std::move(token), std::isfinite(number) ? kTooLarge : kNotFinite};
   }
   return {};

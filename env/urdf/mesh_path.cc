@@ -5,6 +5,7 @@
 #include <cctype>
 #include <vector>
 
+#include "base/input_file.h"
 #include "base/printable.h"
 #include "env/scene/engine_files.h"
 
@@ -12,10 +13,6 @@ namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool IsBelow(const fs::path& folder, const fs::path& file) {
-  return std::ranges::mismatch(folder, file).in1 == folder.end();
-}
 
 // Where the URI may be meant, best first; relative ones in the URDF's folder.
 std::vector<fs::path> Candidates(const std::string& uri) {
@@ -48,7 +45,7 @@ MeshPlace FindMesh(const std::string& uri, const fs::path& urdf, const SourceMar
   MeshPlace place;
   for (const fs::path& candidate : Candidates(uri)) {
     const fs::path file = (folder / candidate).lexically_normal();
-    if (!IsBelow(folder, file) || !IsBelow(folder, fs::weakly_canonical(file, error)))
+    if (!LiesBelow(folder, file) || !LiesBelow(folder, fs::weakly_canonical(file, error)))
       throw InputError(mark, "mesh", uri, "lies outside the folder of the robot's file");
     if (!fs::exists(file, error)) continue;
     place.extension = Extension(file);

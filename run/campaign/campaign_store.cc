@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/file_output.h"
 #include "base/input_files.h"
-#include "base/printable.h"
 #include "base/result_folder.h"
 #include "run/campaign/campaign_tables.h"
 
@@ -192,7 +191,7 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
   if (fs::file_size(file, ignored) > kMaxFile_bytes)
     throw InputError({file.string(), 0}, "", "",
                      "is larger than " + std::to_string(kMaxFile_bytes >> 30) + " GiB");
-  RequirePlainResults(file.parent_path().empty() ? "." : file.parent_path());
+  RequirePlainResults(file.parent_path());
   // Looked through read-only first: opening a damaged file for writing could change it.
   CampaignStore store = Connect(file, SQLITE_OPEN_READONLY);
   store.Check();
@@ -240,7 +239,7 @@ void CampaignStore::RequireInPlace() const {
   sqlite3_file_control(db_, "main", SQLITE_FCNTL_HAS_MOVED, &moved);
   if (moved != 0)
     throw InternalError(
-        Printable(file_.string()) +
+        file_.string() +
         ": was removed or moved while it was being written, with the episodes in it");
 }
 

@@ -20,11 +20,15 @@ ResultNames ReplayResults() {
 
 }  // namespace
 
-fs::path EpisodeFolder(const fs::path& campaign, const std::string& variant,
-                       std::uint64_t episode) {
+fs::path VariantFolder(const fs::path& campaign, const std::string& variant) {
   if (variant.find('/') != std::string::npos || variant == "." || variant == "..")
     throw InputError({campaign.string(), 0}, "variant", variant, "must not lead out of its folder");
-  return campaign / "episodes" / variant / std::to_string(episode);
+  return campaign / "episodes" / variant;
+}
+
+fs::path EpisodeFolder(const fs::path& campaign, const std::string& variant,
+                       std::uint64_t episode) {
+  return VariantFolder(campaign, variant) / std::to_string(episode);
 }
 
 bool IsListed(const EpisodeRow& row) { return row.outcome != "success" || row.any_failure(); }
@@ -33,7 +37,7 @@ std::set<std::uint64_t>& ReplayShelf::Of(const std::string& variant) {
   const auto [entry, is_new] = kept_.try_emplace(variant);
   if (!is_new) return entry->second;
   std::error_code ignored;
-  for (const auto& folder : fs::directory_iterator(campaign_ / "episodes" / variant, ignored)) {
+  for (const auto& folder : fs::directory_iterator(VariantFolder(campaign_, variant), ignored)) {
     const std::string name = folder.path().filename().string();
     std::uint64_t id = 0;
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);

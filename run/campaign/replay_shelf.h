@@ -15,6 +15,9 @@
 namespace floorproof {
 
 // Where a campaign's episode is written when it is driven again, and where its replay lies.
+// Throws InputError if the variant's name would lead out of the campaign's folder.
+std::filesystem::path VariantFolder(const std::filesystem::path& campaign,
+                                    const std::string& variant);
 std::filesystem::path EpisodeFolder(const std::filesystem::path& campaign,
                                     const std::string& variant, std::uint64_t episode);
 

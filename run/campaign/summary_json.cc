@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
-#include "base/result_folder.h"
 #include "run/episode/json_file.h"
 
 namespace floorproof {
@@ -243,7 +242,6 @@ CampaignSummary ReadSummary(const std::filesystem::path& file) {
   if (const std::string why = WhyUnreadable(file, kMaxResultBytes); !why.empty())
     throw InputError({file.string(), 0}, "", "",
                      why + ": not the folder of a finished `campaign` (--resume finishes one)");
-  RequirePlainResults(file.parent_path().empty() ? "." : file.parent_path());
   const JsonValue json = ReadJsonFile(file, "a campaign's summary", kMaxResultBytes);
   CampaignSummary summary;
   summary.campaign = json.at("campaign").get<std::string>();

@@ -14,11 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path FolderOf(const fs::path& file) {
-  std::error_code error;
-  fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path(), error);
-  return error ? fs::absolute(file).lexically_normal().parent_path() : folder;
-}
+fs::path FolderOf(const fs::path& file) { return ResolvedPath(fs::absolute(file).parent_path()); }
 
 // Another user's `.git` above a folder, in /tmp say, must not widen what is read.
 bool IsWorkingTreeOf(const struct stat& scenario, const fs::path& folder) {
@@ -40,7 +36,7 @@ fs::path ProjectFolder(const fs::path& file) {
 
 void ConfineScenario(const fs::path& file, const InputFiles& files) {
   const fs::path models = ModelsFolder();
-  if (LiesBelow(FolderOf(models / "file"), FolderOf(file))) return;
+  if (LiesBelow(ResolvedPath(models), FolderOf(file))) return;
   // The settings of results have copies of their inputs beside them.
   const bool recorded = file.filename() == "scenario.resolved.yaml";
   files.Confine(recorded ? FolderOf(file) : ProjectFolder(file));

@@ -24,9 +24,6 @@ using ::testing::Not;
 
 class RobotLadder : public OwnFolderTest {
  protected:
-  void Save(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
   std::string Load(const std::string& name) const { return Slurp(folder_ / name); }
 
   Result Run(const std::string& arguments) const { return RunProgram(folder_, arguments); }

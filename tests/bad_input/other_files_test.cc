@@ -41,7 +41,7 @@ std::string WithAsset(const std::string& asset) {
   return Replaced(Slurp(SourceFile("models/beluga.xml")), "<custom>",
                   "<asset>" + asset + "</asset><custom>");
 }
-// A URDF that is taken, but for what the mesh breaks.
+// A URDF that is accepted unless its mesh is broken.
 std::string UrdfWithMesh(const std::string& file, const std::string& holder) {
   return Replaced(Slurp(SourceFile("models/others/scout_mini.urdf")), "</robot>",
                   "<link name=\"m\"><" + holder + "><geometry><mesh filename=\"" + file +
@@ -51,7 +51,7 @@ std::string UrdfWithMesh(const std::string& file, const std::string& holder) {
 }
 
 struct Role {
-  std::string robot, text;  // the robot's file and what is in it; the text empty: the other file
+  std::string robot, text;  // the robot's file and its content; an empty text: the other file
   std::string other;
 };
 std::map<std::string, Role> Roles() {
@@ -95,7 +95,7 @@ TEST_P(OtherFile, IsNotQuoted) {
     EXPECT_EQ(dut.signal, 0) << kind;
     EXPECT_EQ((dut.out + dut.err).find(kSecret), std::string::npos) << kind << dut.out << dut.err;
     EXPECT_EQ(WhyUnprintable(dut.out + dut.err), "") << kind << ": " << dut.err;
-    if (dut.status == 0) {  // what is only seen is left out
+    if (dut.status == 0) {  // a part that is only drawn is left out
       EXPECT_NE(dut.out.find("mesh " + role.other + " is "), std::string::npos) << dut.out;
       continue;
     }

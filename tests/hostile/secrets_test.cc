@@ -24,9 +24,6 @@ using ::testing::Not;
 
 class Secrets : public OwnFolderTest {
  protected:
-  void Save(const fs::path& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
   ChildResult Run(const std::vector<std::string>& arguments) const {
     return RunForked(RunFloorproof, arguments, folder_);
   }

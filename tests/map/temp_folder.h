@@ -15,10 +15,6 @@ namespace floorproof {
 
 class TempFolder : public OwnFolderTest {
  protected:
-  std::filesystem::path Save(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
-  }
   template <class Action>
   static std::string Refusal(const Action& action) {
     try {

@@ -23,10 +23,6 @@ using ::testing::HasSubstr;
 
 class ImageTest : public OwnFolderTest {
  protected:
-  fs::path Save(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
-  }
   // What refusing this file says.
   std::string Refusal(const fs::path& path) const {
     try {

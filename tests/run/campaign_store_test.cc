@@ -55,6 +55,17 @@ bool Same(const EpisodeRow& a, const EpisodeRow& b) {
          a.drawn == b.drawn && a.plan == b.plan && a.events == b.events && a.timeout == b.timeout;
 }
 
+Encounter Met(const std::string& hazard, double speed_mps) {
+  Encounter encounter;
+  encounter.hazard = hazard;
+  encounter.type = "step";
+  encounter.size = {{"height_m", 0.1 + 0.2}};
+  encounter.at.speed_mps = speed_mps;
+  encounter.outcome = Encounter::Outcome::kFailed;
+  encounter.mode = FailureMode::kRollOver;
+  return encounter;
+}
+
 class CampaignStoreTest : public OwnFolderTest {
  protected:
   // A campaign of `n` episodes, closed.
@@ -63,6 +74,11 @@ class CampaignStoreTest : public OwnFolderTest {
     std::vector<EpisodeRow> rows;
     for (std::uint64_t episode = 0; episode < n; ++episode) rows.push_back(Row(episode));
     store.Add(rows);
+  }
+  void MakeWithEncounter(std::uint64_t episode) {
+    EpisodeRow row = Row(episode);
+    row.encounters = {Met("kerb", 0.1)};
+    CampaignStore::Create(file_, about_).Add(std::vector{row});
   }
   // Changes a campaign as a stranger could; the file is closed again.
   void Change(const std::string& sql) {
@@ -121,17 +137,6 @@ TEST_F(CampaignStoreTest, RowsComeBackAsPut) {
   EXPECT_EQ(Bytes(folder_).size(), 1u) << "closed, it is one file";
 }
 
-Encounter Met(const std::string& hazard, double speed_mps) {
-  Encounter encounter;
-  encounter.hazard = hazard;
-  encounter.type = "step";
-  encounter.size = {{"height_m", 0.1 + 0.2}};
-  encounter.at.speed_mps = speed_mps;
-  encounter.outcome = Encounter::Outcome::kFailed;
-  encounter.mode = FailureMode::kRollOver;
-  return encounter;
-}
-
 // They have a table of their own, go with their episode, and are forgotten with one that is driven
 // again.
 TEST_F(CampaignStoreTest, EncountersStandBesideTheirEpisodes) {
@@ -164,10 +169,7 @@ TEST_F(CampaignStoreTest, EncountersStandBesideTheirEpisodes) {
 
 TEST_F(CampaignStoreTest, AFileWithoutEncountersIsReadAndNotGoneOnWith) {
   Make(3);
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(db, "DROP TABLE encounter", nullptr, nullptr, nullptr), SQLITE_OK);
-  sqlite3_close(db);
+  Change("DROP TABLE encounter");
   EXPECT_THAT(WhyRefused(true), HasSubstr("has no table encounter"));
   const CampaignStore dut = CampaignStore::Open(file_, false);
   EXPECT_THAT(InTable(dut), ElementsAre(0, 1, 2));
@@ -196,14 +198,9 @@ TEST_F(CampaignStoreTest, DamagedEncountersAreRefused) {
         "ALTER TABLE encounter ADD COLUMN more REAL",
         "ALTER TABLE encounter DROP COLUMN turn_gap_m"}) {
     fs::remove(file_);
-    EpisodeRow row = Row(0);
-    row.encounters = {Met("kerb", 0.1)};
-    CampaignStore::Create(file_, about_).Add(std::vector{row});
+    MakeWithEncounter(0);
     EXPECT_EQ(WhyRefused(false), "");
-    sqlite3* db = nullptr;
-    ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
-    ASSERT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK);
-    sqlite3_close(db);
+    Change(sql);
     EXPECT_THAT(WhyRefused(false), HasSubstr("encounter")) << sql;
   }
 }
@@ -211,16 +208,9 @@ TEST_F(CampaignStoreTest, DamagedEncountersAreRefused) {
 // mean_estimate_position_std_m was mean_estimate_spread_m.
 TEST_F(CampaignStoreTest, AMetricsFormerNameIsStillRead) {
   Make(4);
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
-  for (const char* table : {"episode", "extra"})
-    ASSERT_EQ(sqlite3_exec(db,
-                           (std::string("ALTER TABLE ") + table +
-                            " RENAME COLUMN mean_estimate_position_std_m TO mean_estimate_spread_m")
-                               .c_str(),
-                           nullptr, nullptr, nullptr),
-              SQLITE_OK);
-  sqlite3_close(db);
+  for (const std::string table : {"episode", "extra"})
+    Change("ALTER TABLE " + table +
+           " RENAME COLUMN mean_estimate_position_std_m TO mean_estimate_spread_m");
   CampaignStore store = CampaignStore::Open(file_, true);
   store.Add(std::vector{Row(4)});
   store.SetExtraFrom("default", 3);
@@ -240,12 +230,7 @@ TEST_F(CampaignStoreTest, AMetricsFormerNameIsStillRead) {
 // One made before a metric was added, after it was removed, or before it was moved.
 TEST_F(CampaignStoreTest, AnotherVersionsColumnsAreReadAndNotWritten) {
   const auto alter = [&](const std::string& sql) {
-    sqlite3* db = nullptr;
-    ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
-    for (const std::string table : {"episode", "extra"})
-      ASSERT_EQ(sqlite3_exec(db, ("ALTER TABLE " + table + sql).c_str(), nullptr, nullptr, nullptr),
-                SQLITE_OK);
-    sqlite3_close(db);
+    for (const std::string table : {"episode", "extra"}) Change("ALTER TABLE " + table + sql);
   };
   const auto expect_refused = [&](const char* why) {
     const auto before = Bytes(folder_);
@@ -318,14 +303,7 @@ TEST_F(CampaignStoreTest, OneAtATimeWrites) {
 // Of a version that did not keep where time ran out.
 TEST_F(CampaignStoreTest, AFileWithoutTimeoutsIsReadAndNotGoneOnWith) {
   Make(3);
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(db,
-                         "ALTER TABLE episode DROP COLUMN timeout;"
-                         "ALTER TABLE extra DROP COLUMN timeout",
-                         nullptr, nullptr, nullptr),
-            SQLITE_OK);
-  sqlite3_close(db);
+  Change("ALTER TABLE episode DROP COLUMN timeout; ALTER TABLE extra DROP COLUMN timeout");
   EXPECT_THAT(WhyRefused(true), HasSubstr("has no column timeout"));
   const CampaignStore dut = CampaignStore::Open(file_, false);
   const auto row = dut.Find("default", 2);
@@ -481,9 +459,7 @@ TEST_F(CampaignStoreTest, NumbersOfAnotherKindAreRefused) {
         "UPDATE encounter SET speed_mps = 9e999", "UPDATE encounter SET size = '{\"a\": 1e999}'",
         "UPDATE encounter SET number = -1"}) {
     fs::remove(file_);
-    EpisodeRow row = Row(2);
-    row.encounters = {Met("kerb", 0.1)};
-    CampaignStore::Create(file_, about_).Add(std::vector{row});
+    MakeWithEncounter(2);
     EXPECT_EQ(WhyRefused(false), "");
     Change(sql);
     EXPECT_THAT(WhyRefused(false), HasSubstr("is damaged (a value of a row of table ")) << sql;

@@ -16,10 +16,6 @@ namespace floorproof {
 
 class ScenarioTest : public OwnFolderTest {
  protected:
-  std::filesystem::path Save(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
-  }
   Scenario Read(const std::string& text, const std::vector<Override>& overrides = {}) const {
     return ReadScenario(Save("scenario.yaml", text), overrides, Trust::kFull);
   }
