@@ -43,9 +43,8 @@ class InitFolder {
   explicit InitFolder(fs::path folder) : folder_(std::move(folder)) {}
 
   // How the site names this map; empty: where it lies.
-  std::string MapKey(const fs::path& map) {
+  std::string MapKey(const fs::path& map, const InputFiles& inputs) {
     if (IsInReach(map)) return "";
-    const InputFiles inputs;
     const fs::path image = ReadRosMap(map, inputs).image;
     ConfigNode keys = ReadYamlFile(map, inputs, "image");
     keys.SetPath("image", ConfigNode::Scalar(image.filename().string(), true));
@@ -114,8 +113,10 @@ void AddInit(CommandLine& line, const Globals& globals, int&) {
     InitFolder folder(options->out);
     const bool bundled = robot_file != options->robot;
     const std::string robot_key = bundled ? options->robot : folder.RobotKey(robot.files, inputs);
+    const InputFiles map_files;
+    if (!globals.trusted) ConfineMap(options->map, map_files);
     const InitFiles files = MakeInitFiles(options->map, robot.spec, folder.path(), robot_key,
-                                          folder.MapKey(options->map));
+                                          folder.MapKey(options->map, map_files), map_files);
     folder.Add("site.yaml", files.site_yaml);
     folder.Add("scenario.yaml", files.scenario_yaml);
     for (const auto& warning : files.warnings) globals.Say("warning: " + warning);

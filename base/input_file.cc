@@ -90,6 +90,22 @@ std::string Read(const fs::path& file, std::uintmax_t count, std::uintmax_t most
   return bytes;
 }
 
+// The path with the first link in it replaced by where that leads; empty where there is none.
+fs::path FollowFirstLink(const fs::path& path) {
+  fs::path before;
+  for (auto part = path.begin(); part != path.end(); ++part) {
+    const fs::path here = before / *part;
+    std::error_code error;
+    if (fs::path target = fs::read_symlink(here, error); !error) {
+      fs::path followed = before / target;
+      for (auto rest = std::next(part); rest != path.end(); ++rest) followed /= *rest;
+      return followed;
+    }
+    before = here;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string ReadInputFile(const fs::path& file, std::uintmax_t most_bytes) {
@@ -97,14 +113,28 @@ std::string ReadInputFile(const fs::path& file, std::uintmax_t most_bytes) {
 }
 
 fs::path ResolvedPath(const fs::path& path) {
-  std::error_code error;
-  fs::path resolved = fs::weakly_canonical(fs::absolute(path), error);
-  // A loop of links: the reader reports it.
-  return error ? fs::absolute(path).lexically_normal() : resolved;
+  constexpr int kMaxLinks = 40;
+  const fs::path plain = fs::absolute(path).lexically_normal();
+  fs::path resolved = fs::absolute(path);
+  for (int links = 0; links <= kMaxLinks; ++links) {
+    std::error_code error;
+    resolved = fs::weakly_canonical(resolved, error);
+    if (error) return plain;  // a loop of links: the reader reports it
+    const fs::path followed = FollowFirstLink(resolved);
+    if (followed.empty()) return resolved;
+    resolved = followed;
+  }
+  return plain;
 }
 
 bool LiesBelow(const fs::path& folder, const fs::path& path) {
   return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+bool IsHiddenIn(const fs::path& folder, const fs::path& path) {
+  return std::ranges::any_of(path.lexically_relative(folder), [](const fs::path& part) {
+    return part.native().starts_with('.') && part != "." && part != "..";
+  });
 }
 
 bool IsPlainFile(const fs::path& file) {

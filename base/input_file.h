@@ -19,10 +19,12 @@ std::string WhyUnreadable(const std::filesystem::path& file, std::uintmax_t most
 // Whether it is a plain file and no link, which could lead to a file that is nobody's to show.
 bool IsPlainFile(const std::filesystem::path& file);
 
-// The absolute path without links, as far as it exists.
+// The absolute path without links, those that lead to nothing included.
 std::filesystem::path ResolvedPath(const std::filesystem::path& path);
 // Whether a path is `folder` or lies below it, as both are written: the disk is not asked.
 bool LiesBelow(const std::filesystem::path& folder, const std::filesystem::path& path);
+// Whether it is a hidden file (.env) or lies in a hidden folder (.git, .ssh), seen from `folder`.
+bool IsHiddenIn(const std::filesystem::path& folder, const std::filesystem::path& path);
 
 // Of a file that the program wrote and reads again.
 inline constexpr std::uintmax_t kMaxResultBytes = 64u << 20;

@@ -34,26 +34,22 @@ struct InputFiles::Shared {
   std::map<std::string, Input*> spellings;  // asking again costs no look at the disk
   std::vector<fs::path> order;
   fs::path confined_to;           // empty: nothing is out of reach
+  std::string reader;             // the kind of file whose folder that is
   std::vector<fs::path> allowed;  // beside it
 
   // Why a file is out of reach, whether it is there or not; empty when it is not.
   std::string WhyOutOfReach(const fs::path& file) const {
     if (confined_to.empty()) return "";
     const fs::path path = ResolvedPath(file);
-    const auto is_hidden_in = [&](const fs::path& place) {
-      return std::ranges::any_of(path.lexically_relative(place), [](const fs::path& part) {
-        return part.native().starts_with('.') && part != ".";
-      });
-    };
     const auto allows = [&](const fs::path& place) {
-      return LiesBelow(place, path) && !is_hidden_in(place);
+      return LiesBelow(place, path) && !IsHiddenIn(place, path);
     };
     if (std::ranges::any_of(allowed, allows)) return "";
     const std::string trusted = " (--trust reads it all the same)";
     if (!LiesBelow(confined_to, path))
-      return "lies outside the scenario's folder, " + confined_to.string() + trusted;
-    if (is_hidden_in(confined_to))
-      return "is a hidden file of the scenario's folder, or in one" + trusted;
+      return "lies outside the " + reader + "'s folder, " + confined_to.string() + trusted;
+    if (IsHiddenIn(confined_to, path))
+      return "is a hidden file of the " + reader + "'s folder, or in one" + trusted;
     return "";
   }
 
@@ -172,9 +168,10 @@ std::vector<std::pair<std::string, std::string>> InputFiles::Named() const {
   return named;
 }
 
-void InputFiles::Confine(const fs::path& folder) const {
+void InputFiles::Confine(const fs::path& folder, const std::string& reader) const {
   const std::lock_guard alone(shared_->mutex);
   shared_->confined_to = ResolvedPath(folder);
+  shared_->reader = reader;
 }
 
 void InputFiles::Allow(const fs::path& place) const {

@@ -47,8 +47,8 @@ class InputFiles {
 
   // From now on a file that was neither read nor held before is read only if it lies in `folder` or
   // where it was allowed, links followed. Hidden files and folders below `folder` (.git, .ssh) are
-  // out of reach too. Before Allow.
-  void Confine(const std::filesystem::path& folder) const;
+  // out of reach too. `reader` says whose folder it is: "scenario", "map". Before Allow.
+  void Confine(const std::filesystem::path& folder, const std::string& reader) const;
   // Lets a file be read, or a folder's files but for hidden ones. Does nothing unless confined.
   void Allow(const std::filesystem::path& place) const;
   bool confined() const;

@@ -250,8 +250,8 @@ Pose2 ChooseStart(const HazardMap& map, const RobotSpec& robot) {
 
 InitFiles MakeInitFiles(const fs::path& map_yaml, const RobotSpec& robot,
                         const fs::path& folder_out, const std::string& robot_key,
-                        const std::string& map_key) {
-  const RosMap ros = ReadRosMap(map_yaml);
+                        const std::string& map_key, const InputFiles& inputs) {
+  const RosMap ros = ReadRosMap(map_yaml, inputs);
   HazardMap map;
   map.frame = ros.frame;
   map.occupancy = ros.occupancy;

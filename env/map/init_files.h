@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_files.h"
 #include "env/core/hazard_map.h"
 #include "env/core/robot_spec.h"
 
@@ -24,7 +25,7 @@ struct InitFiles {
 // name; empty: robot.name. `map_key`: how the site names the map; empty: where it lies.
 InitFiles MakeInitFiles(const std::filesystem::path& map_yaml, const RobotSpec& robot,
                         const std::filesystem::path& folder_out, const std::string& robot_key = "",
-                        const std::string& map_key = "");
+                        const std::string& map_key = "", const InputFiles& inputs = {});
 
 // Where a robot of this shape may start: in the largest piece of floor that it can reach, towards
 // the map's lower left, with 0.10 m to spare if there is such a place, heading along the map's x.

@@ -23,7 +23,7 @@ constexpr std::uintmax_t kMaxBytesOfAll = 256u << 20;
 
 struct EngineFiles::Served {
   Served(const InputFiles& from, const fs::path& main)
-      : files(from), model(main), folder(fs::weakly_canonical(main.parent_path())) {
+      : files(from), model(main), folder(ResolvedPath(main.parent_path())) {
     mj_defaultVFS(&vfs);
   }
   ~Served() { mj_deleteVFS(&vfs); }
@@ -35,6 +35,12 @@ struct EngineFiles::Served {
     auto* served = static_cast<Served*>(resource->provider->data);
     const std::scoped_lock lock(served->mutex);
     const fs::path file(resource->name);
+    // Not there, for the engine: of an include's mesh it asks in the robot's folder first and in
+    // the include's after that.
+    if (const std::string why = served->WhyOutOfReach(file); !why.empty()) {
+      if (!served->out_of_reach) served->out_of_reach = {served->NameOf(file), why};
+      return 0;
+    }
     std::error_code error;
     if (!served->files.HasStandIn(file) && !fs::exists(file, error) && !error) return 0;
     if (const std::string why = served->WhyNot(file); !why.empty()) {
@@ -55,12 +61,12 @@ struct EngineFiles::Served {
   } catch (const std::exception&) {
     return 0;
   }
-  // Why the model may not have this file; empty when it may.
+  // The same whether the file is there or not.
+  std::string WhyOutOfReach(const fs::path& file) const {
+    return file == model || files.HasStandIn(file) ? "" : EngineFiles::WhyOutOfReach(folder, file);
+  }
+  // Why the model may not have this file of its own folder; empty when it may.
   std::string WhyNot(const fs::path& file) const {
-    std::error_code error;
-    if (file != model && !files.HasStandIn(file) &&
-        !LiesBelow(folder, fs::weakly_canonical(file, error)))
-      return "lies outside the folder of the robot's file";
     const bool again = std::ranges::find(opened, file) != opened.end();
     if (again && file == model) return "is the robot's file itself";
     if (std::string why = files.WhyUnreadable(file, kMaxBytes); !why.empty()) return why;
@@ -90,10 +96,17 @@ struct EngineFiles::Served {
   fs::path model, folder;  // the latter without links
   std::vector<fs::path> opened;
   std::uintmax_t bytes = 0;  // of these
-  std::optional<std::pair<std::string, std::string>> refused;
+  std::optional<std::pair<std::string, std::string>> refused, out_of_reach;
   mjpResourceProvider provider{};
   mjVFS vfs{};
 };
+
+std::string EngineFiles::WhyOutOfReach(const fs::path& folder, const fs::path& file) {
+  const fs::path path = ResolvedPath(file);
+  if (!LiesBelow(folder, path)) return "lies outside the folder of the robot's file";
+  if (IsHiddenIn(folder, path)) return "is a hidden file of the robot's folder, or in one";
+  return "";
+}
 
 EngineFiles::EngineFiles(const InputFiles& files, const fs::path& file)
     : served_(std::make_shared<Served>(files, file)) {
@@ -125,6 +138,10 @@ std::vector<fs::path> EngineFiles::Opened() const { return served_->opened; }
 
 std::optional<std::pair<std::string, std::string>> EngineFiles::Refused() const {
   return served_->refused;
+}
+
+std::optional<std::pair<std::string, std::string>> EngineFiles::OutOfReach() const {
+  return served_->out_of_reach;
 }
 
 }  // namespace floorproof

@@ -5,8 +5,8 @@
 // MuJoCo asks a provider for every file below the folder that the provider is mounted at, by its
 // absolute path. One is mounted at each folder of the root.
 //
-// A model has plain files below its own folder, and no others: whatever it names, and however it
-// spells that. What else it asks for is told to the engine as an empty file.
+// A model has plain files below its own folder that are not hidden, and no others: whatever it
+// names, and however it spells that.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -31,14 +31,22 @@ class EngineFiles {
   // For the model in `file`, an absolute path. Throws InternalError when MuJoCo mounts nothing.
   EngineFiles(const InputFiles& files, const std::filesystem::path& file);
 
+  // Why a robot whose file lies in `folder`, a path without links, may not read this file, there or
+  // not; empty when it may.
+  static std::string WhyOutOfReach(const std::filesystem::path& folder,
+                                   const std::filesystem::path& file);
+
   // As long as somebody holds it, what was read stays.
   std::shared_ptr<const mjVFS> shared_vfs() const { return vfs_; }
   const mjVFS* vfs() const { return vfs_.get(); }
   // What the engine has opened so far, each once, in that order.
   std::vector<std::filesystem::path> Opened() const;
   // The first file that the engine asked for and may not have, and why: a pipe or a device, too
-  // large, outside the model's folder.
+  // large. It was told that the file is empty.
   std::optional<std::pair<std::string, std::string>> Refused() const;
+  // The first one outside the model's folder, or hidden there, and why. The engine was told that it
+  // is not there, and may have found another in its place.
+  std::optional<std::pair<std::string, std::string>> OutOfReach() const;
 
  private:
   struct Served;

@@ -50,15 +50,20 @@ int LineOf(const std::string& text, const std::string& value) {
   return LineAt(text, found);
 }
 
-// What the engine opened and must not have goes before what the engine says of it.
+// What the engine asked for and must not have goes before what the engine says of it.
 [[noreturn]] void Refuse(const fs::path& file, const ParsedMjcf& parsed, const InputFiles& files,
                          std::string_view message, std::string_view rule) {
-  if (const auto refused = parsed.engine_files.Refused()) {
-    throw InputError(
-        {file.string(), LineOf(files.Read(file, EngineFiles::kMaxBytes), refused->first)}, "file",
-        refused->first, refused->second);
-  }
-  throw EngineRefusal(file, rule, message);
+  auto refused = parsed.engine_files.Refused();
+  if (const auto beyond = parsed.engine_files.OutOfReach();
+      !refused && beyond &&
+      message.find(fs::path(beyond->first).filename().string()) != message.npos)
+    refused = beyond;
+  if (!refused) throw EngineRefusal(file, rule, message);
+  const std::string& text = files.Read(file, EngineFiles::kMaxBytes);
+  const auto& [name, why] = *refused;
+  int line = LineOf(text, name);
+  if (line == 0) line = LineOf(text, fs::path(name).lexically_relative(Whole(file).parent_path()));
+  throw InputError({file.string(), line}, "file", name, why);
 }
 
 template <class T>

@@ -40,14 +40,13 @@ std::string Extension(const fs::path& file) {
 
 MeshPlace FindMesh(const std::string& uri, const fs::path& urdf, const SourceMark& mark,
                    const InputFiles& files) {
-  std::error_code error;
-  const fs::path folder = fs::weakly_canonical(fs::absolute(urdf).parent_path(), error);
+  const fs::path folder = ResolvedPath(fs::absolute(urdf).parent_path());
   MeshPlace place;
   for (const fs::path& candidate : Candidates(uri)) {
     const fs::path file = (folder / candidate).lexically_normal();
-    if (!LiesBelow(folder, file) || !LiesBelow(folder, fs::weakly_canonical(file, error)))
-      throw InputError(mark, "mesh", uri, "lies outside the folder of the robot's file");
-    if (!fs::exists(file, error)) continue;
+    if (const std::string why = EngineFiles::WhyOutOfReach(folder, file); !why.empty())
+      throw InputError(mark, "mesh", uri, why);
+    if (std::error_code error; !fs::exists(file, error)) continue;
     place.extension = Extension(file);
     constexpr std::string_view kReadable[] = {".stl", ".obj", ".msh", ".dae"};
     if (std::ranges::find(kReadable, place.extension) == std::end(kReadable)) {

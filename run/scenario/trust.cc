@@ -39,9 +39,15 @@ void ConfineScenario(const fs::path& file, const InputFiles& files) {
   if (LiesBelow(ResolvedPath(models), FolderOf(file))) return;
   // The settings of results have copies of their inputs beside them.
   const bool recorded = file.filename() == "scenario.resolved.yaml";
-  files.Confine(recorded ? FolderOf(file) : ProjectFolder(file));
+  files.Confine(recorded ? FolderOf(file) : ProjectFolder(file), "scenario");
   files.Allow(file);
   files.Allow(models);
+}
+
+void ConfineMap(const fs::path& file, const InputFiles& files) {
+  files.Confine(ProjectFolder(file), "map");
+  files.Allow(file);
+  files.Allow(fs::absolute(file).parent_path());
 }
 
 void AllowTyped(const std::string& key, const ConfigNode& value, const fs::path& folder,

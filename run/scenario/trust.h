@@ -27,6 +27,9 @@ std::filesystem::path ProjectFolder(const std::filesystem::path& file);
 // Lets `files` read what the scenario in `file` may name untrusted, and nothing else. One that lies
 // in the bundled models is the program's own: nothing is confined.
 void ConfineScenario(const std::filesystem::path& file, const InputFiles& files);
+// Likewise what the ROS map that the user named may: its image lies in its folder, or in the git
+// working tree that the folder is part of.
+void ConfineMap(const std::filesystem::path& file, const InputFiles& files);
 // Lets `files` read what a value names that the user typed for this key, of a scenario in `folder`:
 // the file; of a robot or a site its folder too, where its parts lie.
 void AllowTyped(const std::string& key, const ConfigNode& value,

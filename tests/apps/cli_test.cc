@@ -533,6 +533,17 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
   EXPECT_THAT(Slurp(folder_ / "mine4/site.yaml"), HasSubstr("map: \"map.yaml\""));
   EXPECT_EQ(Run("plan mine4/scenario.yaml --out own").status, 0);
 
+  // A map may not make it read what lies elsewhere.
+  fs::create_directories(folder_ / "mine5");
+  std::ofstream(folder_ / "mine5/map.yaml")
+      << "image: " << (folder_ / "map.pgm").string()
+      << "\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
+         "free_thresh: 0.196\n";
+  EXPECT_THAT(Run("init mine5/map.yaml --out mine6").err,
+              AllOf(HasSubstr("mine5/map.yaml:1: image = "), HasSubstr("outside the map's folder"),
+                    HasSubstr("--trust")));
+  EXPECT_EQ(Run("init mine5/map.yaml --out mine6 --trust").status, 0);
+
   // A robot of one's own, named from where one is; and what two maps give does not meet.
   fs::create_directories(folder_ / "mine2/robots");
   fs::copy_file(SourceFile("models/beluga.xml"), folder_ / "my.xml");

@@ -61,6 +61,7 @@ bool SaveOutside(const std::filesystem::path& folder) {
       << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
   std::filesystem::rename(folder / "mine.xml", folder / "below/mine.xml");
   std::filesystem::create_symlink("../outside.obj", folder / "below/link.obj");
+  std::filesystem::create_symlink("../none.obj", folder / "below/dangling.obj");
   return true;
 }
 BadInput FromOutside(const std::string& name, const std::string& file,
@@ -133,6 +134,11 @@ std::vector<BadInput> FileCases() {
                MakePipe),
       FromOutside("MeshOutside", "../outside.obj", {"outside.obj", "outside the folder"}),
       FromOutside("MeshOutsideByALink", "link.obj", {"file = link.obj", "outside the folder"}),
+      FromOutside("MeshMissingOutside", "/no/such/mesh.obj",
+                  {"file = /no/such/mesh.obj", "outside the folder"}),
+      FromOutside("MeshMissingOutsideByALink", "dangling.obj",
+                  {"file = dangling.obj", "outside the folder"}),
+      FromOutside("MeshHidden", ".git/x.obj", {"file = .git/x.obj", "hidden"}),
       Beside("IncludesAFolder", "<include file=\".\"/>", {"is a folder"}),
   };
 }

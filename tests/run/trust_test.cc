@@ -63,7 +63,11 @@ TEST_F(TrustTest, WhatLiesOutsideIsNot) {
 TEST_F(TrustTest, NorWhereALinkLeadsThere) {
   fs::create_symlink(folder_ / "out.csv", folder_ / "in/link.csv");
   fs::create_directory_symlink(folder_, folder_ / "in/up");
-  for (const char* plan : {"link.csv", "up/out.csv"}) {
+  // Whether something is there or not.
+  fs::create_symlink(folder_ / "none.csv", folder_ / "in/dangling.csv");
+  fs::create_symlink("up", folder_ / "in/again");
+  for (const char* plan :
+       {"link.csv", "up/out.csv", "dangling.csv", "up/none.csv", "again/none.csv"}) {
     Write(plan);
     EXPECT_THAT(Refusal(), IsOutside()) << plan;
   }
@@ -117,6 +121,18 @@ TEST_F(TrustTest, AWorkingTreeIsReadWhole) {
   ASSERT_EQ(chown((folder_ / ".git").c_str(), 65534, 65534), 0);
   EXPECT_EQ(ProjectFolder(folder_ / "in/s.yaml"), fs::canonical(folder_ / "in"))
       << "another user's .git widens nothing";
+}
+
+TEST_F(TrustTest, AMapReadsItsFolderOrWorkingTree) {
+  const InputFiles files;
+  ConfineMap(folder_ / "in/map.yaml", files);
+  EXPECT_EQ(files.WhyUnreadable(folder_ / "in/plan.csv", 1 << 20), "");
+  EXPECT_THAT(files.WhyUnreadable(folder_ / "out.csv", 1 << 20),
+              AllOf(HasSubstr("lies outside the map's folder"), HasSubstr("--trust")));
+  fs::create_directory(folder_ / ".git");
+  const InputFiles of_tree;
+  ConfineMap(folder_ / "in/map.yaml", of_tree);
+  EXPECT_EQ(of_tree.WhyUnreadable(folder_ / "out.csv", 1 << 20), "");
 }
 
 TEST_F(TrustTest, BundledScenariosAreTheProgramsOwn) {
