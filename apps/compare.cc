@@ -67,8 +67,9 @@ void AddCompare(CommandLine& line, const Globals& globals, int& status) {
     json["a_folder"] = a.folder.string();
     json["b_folder"] = b.folder.string();
     globals.Result(json);
-    globals.Say(fmt::format("a: {}\nb: {}\n{} in both, with the same draws", a.name(), b.name(),
-                            CountText(comparison.n, "episode")));
+    globals.Say("a: " + a.name());
+    globals.Say("b: " + b.name());
+    globals.Say(CountText(comparison.n, "episode") + " in both, with the same draws");
     if (comparison.repeats > 0)
       globals.Say(
           fmt::format("one pair, repeated: all {} came out the same on both sides, to the "

@@ -47,7 +47,8 @@ void AddDemo(CommandLine& line, const Globals& globals, int& status) {
     bool good = true;
     std::string finished;
     for (const auto& drive : kDrives) {
-      globals.Say(fmt::format("\n{}: {}", drive.scenario, drive.says));
+      globals.Say("");
+      globals.Say(fmt::format("{}: {}", drive.scenario, drive.says));
       Scenario scenario =
           ReadScenario(ModelsFolder() / "scenarios" / (std::string(drive.scenario) + ".yaml"),
                        globals.Overrides());
@@ -64,7 +65,8 @@ void AddDemo(CommandLine& line, const Globals& globals, int& status) {
                               *drive.mode ? ", " : "", drive.mode));
       all[drive.scenario] = ResultJson(scenario, result.record);
     }
-    globals.Say(fmt::format("\npages, films, heat maps and records are in {}", root.string()));
+    globals.Say("");
+    globals.Say("pages, films, heat maps and records are in " + root.string());
     globals.Result(all);
     status = good ? kExitDone : kExitBroken;
   });

@@ -6,7 +6,7 @@
 
 namespace floorproof {
 
-void Console::Say(const std::string& line) const { SayPrintable(Printable(line)); }
+void Console::Say(const std::string& line) const { SayPrintable(PrintableLine(line)); }
 
 void Console::Say(const TextTable& table) const {
   const int fd = listener ? -1 : fileno(Out());

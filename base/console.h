@@ -16,6 +16,7 @@ struct Console {
   // Takes each line in place of stdout and stderr, where there is one, quiet or not.
   std::function<void(const std::string&)> listener = {};
 
+  // One line, whatever the names in it hold.
   void Say(const std::string& line) const;
   // Fitted to the terminal, and in colours where it shows them; to who listens 80 columns wide and
   // without.

@@ -86,5 +86,13 @@ TEST_F(Terminal, WhoListensGetsPlainLinesOfEightyColumns) {
   EXPECT_EQ(said, name + std::string(40, 'a') + "|" + room + std::string(30, 'b') + "|");
 }
 
+// A name of two lines must not pass for a verdict.
+TEST_F(Terminal, WhatIsSaidIsOneLine) {
+  std::string said;
+  const Console dut{.listener = [&](const std::string& line) { said += line + "|"; }};
+  dut.Say("hazard x\nPASSED\tall\x1b[2J");
+  EXPECT_EQ(said, "hazard x PASSED all?[2J|");
+}
+
 }  // namespace
 }  // namespace floorproof
