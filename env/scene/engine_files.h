@@ -42,10 +42,10 @@ class EngineFiles {
   // What the engine has opened so far, each once, in that order.
   std::vector<std::filesystem::path> Opened() const;
   // The first file that the engine asked for and may not have, and why: a pipe or a device, too
-  // large. It was told that the file is empty.
+  // large. The engine gets an empty file instead.
   std::optional<std::pair<std::string, std::string>> Refused() const;
-  // The first one outside the model's folder, or hidden there, and why. The engine was told that it
-  // is not there, and may have found another in its place.
+  // The first one outside the model's folder, or hidden there, and why. To the engine it does
+  // not exist, so it may have found another in its place.
   std::optional<std::pair<std::string, std::string>> OutOfReach() const;
 
  private:

@@ -50,7 +50,7 @@ int LineOf(const std::string& text, const std::string& value) {
   return LineAt(text, found);
 }
 
-// What the engine asked for and must not have goes before what the engine says of it.
+// A file that the engine may not have is reported first, the engine's own message otherwise.
 [[noreturn]] void Refuse(const fs::path& file, const ParsedMjcf& parsed, const InputFiles& files,
                          std::string_view message, std::string_view rule) {
   auto refused = parsed.engine_files.Refused();
