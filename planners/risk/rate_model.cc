@@ -111,6 +111,16 @@ double Beyond(const RateAxis& axis, double x) {
   return near / (axis.lower != 0 ? std::abs(axis.lower) : 1);
 }
 
+bool IsFarBeyond(const RateAxis& axis, double x) {
+  constexpr double kShare = 0.25, kFactor = 1.5;
+  constexpr std::string_view kScales[] = {"speed_mps", "friction", "mass_kg", "clearance_m"};
+  if (Beyond(axis, x) > kShare) return true;
+  const bool is_scale =
+      axis.of_hazard || std::ranges::find(kScales, axis.name) != std::end(kScales);
+  return is_scale && axis.period == 0 && axis.lower > 0 &&
+         (x * kFactor < axis.lower || x > kFactor * axis.upper);
+}
+
 double RateOf(double eta) { return eta > 30 ? eta : std::log1p(std::exp(eta)); }
 double EtaOf(double rate) { return rate > 30 ? rate : std::log(std::expm1(rate)); }
 

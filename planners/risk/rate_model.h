@@ -188,6 +188,10 @@ class Covariates {
 // At least 0; beyond what was measured, by how much, as a share of what was (of an axis that was
 // always the same: of its value).
 double Beyond(const RateAxis& axis, double x);
+// So far beyond that the fitted curve is worthless: by more than a quarter of the range; of sizes,
+// speeds, friction, mass and clearance also by a factor of 1.5. Not of distances and errors of
+// place, which may well be 0.
+bool IsFarBeyond(const RateAxis& axis, double x);
 
 double RateOf(double eta);  // log(1 + exp(eta))
 double EtaOf(double rate);  // its inverse; rate > 0

@@ -79,7 +79,7 @@ class Predictor {
         ++unmeasured[{encounter.type, encounter.passage}];
         continue;
       }
-      is_far_beyond_ = is_far_beyond_ || IsFarBeyond(rates->kind(), encounter);
+      if (!far_beyond_) far_beyond_ = FindFarBeyond(rates->kind(), encounter, number);
       const std::string like = of + " " + TextOf(rates->kind());
       const std::size_t alike =
           rates->kind().per_metre ? number : first.emplace(like, number).first->second;
@@ -104,10 +104,10 @@ class Predictor {
     for (auto& [at, beyond] : beyond_) out.beyond.push_back(std::move(beyond));
     out.left_out = std::move(left_out_);
     for (const auto& [ramp, text] : loose_ramps_) out.left_out.push_back(text);
-    out.is_far_beyond = is_far_beyond_;
+    out.far_beyond = std::move(far_beyond_);
     out.held_against_plans = model_->carry_over.plans;
     for (auto& [kind, unmeasured] : unmeasured_) out.unmeasured.push_back(std::move(unmeasured));
-    if (!out.unmeasured.empty() || !loose_ramps_.empty() || is_far_beyond_) KnowNothing(out);
+    if (!out.unmeasured.empty() || !loose_ramps_.empty() || out.far_beyond) KnowNothing(out);
     return out;
   }
 
@@ -155,20 +155,17 @@ class Predictor {
     }
   }
 
-  // Far outside the measured range, where the fitted curve is worthless.
-  bool IsFarBeyond(const KindRates& kind, const Encounter& met) const {
-    constexpr double kFarShare = 0.25, kFarFactor = 1.5;
+  std::optional<Prediction::FarBeyond> FindFarBeyond(const KindRates& kind, const Encounter& met,
+                                                     std::size_t number) const {
     Covariates covariates(kind.axes, model_->mirrored, met.size);
     const std::span<const double> x = covariates.Of(met.at);
     for (std::size_t a = 0; a < x.size(); ++a) {
       const RateAxis& axis = kind.axes[a];
       if (axis.name == "over_m") continue;  // counted as several meetings (TimesMeasured)
-      const bool is_scale = axis.period == 0 && axis.lower > 0;
-      if (floorproof::Beyond(axis, x[a]) > kFarShare ||
-          (is_scale && (x[a] * kFarFactor < axis.lower || x[a] > kFarFactor * axis.upper)))
-        return true;
+      if (IsFarBeyond(axis, x[a]))
+        return Prediction::FarBeyond{kind.type, axis.name, x[a], axis.lower, axis.upper, number};
     }
-    return false;
+    return std::nullopt;
   }
 
   // Nothing is known, so the interval of the failure probability ends at 1.
@@ -203,8 +200,8 @@ class Predictor {
   PlanResult plan_;
   std::vector<Encounter> expected_;
   std::vector<std::string> left_out_;
-  std::map<std::string, std::string> loose_ramps_;  // by id
-  bool is_far_beyond_ = false;
+  std::map<std::string, std::string> loose_ramps_;   // by id
+  std::optional<Prediction::FarBeyond> far_beyond_;  // the first one
   std::vector<std::vector<PlannedMeeting>> conditions_;
   std::vector<PredictedMeeting> meetings_;
   std::map<std::string, std::size_t> numbers_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,10 +45,14 @@ struct Prediction {
     std::size_t meeting = 0;
   };
   std::vector<Beyond> beyond;
-  // In a drawn condition, a value is so far beyond the measured range that the rates do not apply:
-  // by more than a quarter of the range, or by a factor of 1.5 for positive quantities (friction,
-  // speeds, sizes).
-  bool is_far_beyond = false;
+  // The first value, in any drawn condition, that is so far beyond the measured range that the
+  // rates do not apply (IsFarBeyond).
+  struct FarBeyond {
+    std::string type, axis;
+    double value = 0, lower = 0, upper = 0;  // and what was measured
+    std::size_t meeting = 0;
+  };
+  std::optional<FarBeyond> far_beyond;
 
   // What the scenario has that rates know nothing of, in words.
   std::vector<std::string> left_out;
@@ -56,7 +61,7 @@ struct Prediction {
   // If false, the failure probability is a lower bound. The interval ends at 1 if the kind of an
   // encounter was not measured, a value is far beyond the range, or a ramp does not lead to a
   // floor.
-  bool complete() const { return unmeasured.empty() && left_out.empty() && !is_far_beyond; }
+  bool complete() const { return unmeasured.empty() && left_out.empty() && !far_beyond; }
 };
 
 // Of the scenario's plan in the conditions that its first `draws` episodes draw; one condition

@@ -104,9 +104,12 @@ std::vector<std::string> PredictionLines(const Prediction& prediction) {
         "the probability is a guess",
         beyond.axis, beyond.type, PercentText(beyond.share, 2),
         Where(prediction.meetings[beyond.meeting].expected)));
-  if (prediction.is_far_beyond)
+  if (const auto& far = prediction.far_beyond)
     lines.push_back(
-        "warning: a value is far beyond the measured range: nothing is known of such an encounter");
+        fmt::format("warning: {} = {:.4g} is far beyond what was measured of {}, {:.4g} to {:.4g}, "
+                    "at {}: nothing is known of such an encounter",
+                    far->axis, far->value, far->type, far->lower, far->upper,
+                    Where(prediction.meetings[far->meeting].expected)));
   constexpr int kFewPlans = 40;
   if (prediction.held_against_plans < kFewPlans)
     lines.push_back(
@@ -153,7 +156,7 @@ Json PredictionJson(const Scenario& s, const Prediction& prediction, const Json&
                                     {"of", beyond.axis},
                                     {"beyond", beyond.share},
                                     {"meeting", beyond.meeting}});
-  json["far_beyond"] = prediction.is_far_beyond;
+  json["far_beyond"] = prediction.far_beyond.has_value();
   json["left_out"] = prediction.left_out;
   json["held_against_plans"] = prediction.held_against_plans;
   return json;

@@ -197,6 +197,28 @@ TEST_F(PredictionTest, FarBeyondWhatWasMeasuredItMayAlwaysFail) {
     EXPECT_EQ(at(far).survival.no_failure.lower, 0) << far;
     EXPECT_THAT(PredictionLines(at(far)), Contains(HasSubstr("to 100 %"))) << far;
   }
+  EXPECT_THAT(PredictionLines(at("0.001")),
+              Contains(HasSubstr("friction = 0.001 is far beyond what was measured of cable_cover, "
+                                 "0.4 to 0.8, at first (cable_cover, over)")));
+}
+
+// A robot that knows its place and passes close by a wall does what was measured, though no drive
+// came to be wrong by exactly 0, or had exactly 0 between it and the wall.
+TEST(FarBeyond, IsAFactorOfWhatCannotBeZeroAlone) {
+  const auto is_far = [](const char* name, bool of_hazard, double lower, double upper, double x) {
+    RateAxis axis;
+    axis.name = name;
+    axis.of_hazard = of_hazard;
+    axis.lower = lower, axis.upper = upper;
+    return IsFarBeyond(axis, x);
+  };
+  EXPECT_FALSE(is_far("wall_m", false, 0.0101528, 1, 0));
+  EXPECT_FALSE(is_far("estimate_error_m", false, 1.86702e-06, 0.136975, 0));
+  EXPECT_FALSE(is_far("gap_m", false, 5.85e-05, 0.0998, 0));
+  EXPECT_TRUE(is_far("estimate_error_m", false, 1.86702e-06, 0.136975, 0.2));
+  EXPECT_TRUE(is_far("friction", true, 0.0205, 0.6, 0.001)) << "of a wet floor";
+  EXPECT_TRUE(is_far("friction", false, 0.3, 1, 0.19));
+  EXPECT_TRUE(is_far("height_m", true, 0.001, 0.02, 0.031));
 }
 
 // Rates of ramps were measured on ramps that lead to a floor.
