@@ -37,10 +37,7 @@ struct EngineFiles::Served {
     const fs::path file(resource->name);
     // Not there, for the engine: of an include's mesh it asks in the robot's folder first and in
     // the include's after that.
-    if (const std::string why = served->WhyOutOfReach(file); !why.empty()) {
-      if (!served->out_of_reach) served->out_of_reach = {served->NameOf(file), why};
-      return 0;
-    }
+    if (served->IsOutOfReach(file)) return 0;
     std::error_code error;
     if (!served->files.HasStandIn(file) && !fs::exists(file, error) && !error) return 0;
     if (const std::string why = served->WhyNot(file); !why.empty()) {
@@ -62,8 +59,9 @@ struct EngineFiles::Served {
     return 0;
   }
   // The same whether the file is there or not.
-  std::string WhyOutOfReach(const fs::path& file) const {
-    return file == model || files.HasStandIn(file) ? "" : EngineFiles::WhyOutOfReach(folder, file);
+  bool IsOutOfReach(const fs::path& file) const {
+    return file != model && !files.HasStandIn(file) &&
+           !EngineFiles::WhyOutOfReach(folder, file).empty();
   }
   // Why the model may not have this file of its own folder; empty when it may.
   std::string WhyNot(const fs::path& file) const {
@@ -96,7 +94,7 @@ struct EngineFiles::Served {
   fs::path model, folder;  // the latter without links
   std::vector<fs::path> opened;
   std::uintmax_t bytes = 0;  // of these
-  std::optional<std::pair<std::string, std::string>> refused, out_of_reach;
+  std::optional<std::pair<std::string, std::string>> refused;
   mjpResourceProvider provider{};
   mjVFS vfs{};
 };
@@ -138,10 +136,6 @@ std::vector<fs::path> EngineFiles::Opened() const { return served_->opened; }
 
 std::optional<std::pair<std::string, std::string>> EngineFiles::Refused() const {
   return served_->refused;
-}
-
-std::optional<std::pair<std::string, std::string>> EngineFiles::OutOfReach() const {
-  return served_->out_of_reach;
 }
 
 }  // namespace floorproof

@@ -6,7 +6,7 @@
 // absolute path. One is mounted at each folder of the root.
 //
 // A model has plain files below its own folder that are not hidden, and no others: whatever it
-// names, and however it spells that.
+// names, and however it spells that. To the engine the others do not exist.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -44,9 +44,6 @@ class EngineFiles {
   // The first file that the engine asked for and may not have, and why: a pipe or a device, too
   // large. The engine gets an empty file instead.
   std::optional<std::pair<std::string, std::string>> Refused() const;
-  // The first one outside the model's folder, or hidden there, and why. To the engine it does
-  // not exist, so it may have found another in its place.
-  std::optional<std::pair<std::string, std::string>> OutOfReach() const;
 
  private:
   struct Served;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/params.h"
 #include "base/try_in_child.h"
 #include "env/scene/engine_refusal.h"
@@ -50,19 +51,29 @@ int LineOf(const std::string& text, const std::string& value) {
   return LineAt(text, found);
 }
 
+// The first file out of the model's reach that the engine's message names, in quotes.
+std::optional<std::pair<std::string, std::string>> OutOfReach(const fs::path& model,
+                                                              std::string_view message) {
+  const fs::path folder = ResolvedPath(Whole(model).parent_path());
+  for (std::size_t open = message.find('\''); open != message.npos;) {
+    const std::size_t close = message.find('\'', open + 1);
+    if (close == message.npos) break;
+    const std::string name(message.substr(open + 1, close - open - 1));
+    if (std::string why = EngineFiles::WhyOutOfReach(folder, folder / name); !why.empty())
+      return {{name, std::move(why)}};
+    open = message.find('\'', close + 1);
+  }
+  return std::nullopt;
+}
+
 // A file that the engine may not have is reported first, the engine's own message otherwise.
 [[noreturn]] void Refuse(const fs::path& file, const ParsedMjcf& parsed, const InputFiles& files,
                          std::string_view message, std::string_view rule) {
   auto refused = parsed.engine_files.Refused();
-  if (const auto beyond = parsed.engine_files.OutOfReach();
-      !refused && beyond &&
-      message.find(fs::path(beyond->first).filename().string()) != message.npos)
-    refused = beyond;
+  if (!refused) refused = OutOfReach(file, message);
   if (!refused) throw EngineRefusal(file, rule, message);
-  const std::string& text = files.Read(file, EngineFiles::kMaxBytes);
   const auto& [name, why] = *refused;
-  int line = LineOf(text, name);
-  if (line == 0) line = LineOf(text, fs::path(name).lexically_relative(Whole(file).parent_path()));
+  const int line = LineOf(files.Read(file, EngineFiles::kMaxBytes), name);
   throw InputError({file.string(), line}, "file", name, why);
 }
 
