@@ -126,7 +126,7 @@ int RunMeasure(const MeasureCommand& options, const Globals& globals) {
       if (!fs::exists(folder / "risk_model.json")) WriteRiskModel(*model, folder);
       plans_status = AddPlans(options, globals, folder, *model);
       WriteRiskModel(*model, folder);
-      globals.Say(RiskModelText(*model));
+      for (const std::string& line : RiskModelLines(*model)) globals.Say(line);
       fitted = true;
     } else {
       globals.Say("warning: no kind of hazard was met often enough: no rates are fitted");

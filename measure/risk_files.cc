@@ -57,19 +57,19 @@ void WriteRiskModel(const RiskModel& model, const std::filesystem::path& folder)
   WriteFileWhole(folder / "risk_model.json", RiskModelJson(model));
 }
 
-std::string RiskModelText(const RiskModel& model) {
-  std::string text =
-      fmt::format("risk_model.json: rates of {} from {}", CountText(model.kinds.size(), "kind"),
-                  CountText(model.encounters, "encounter"));
+std::vector<std::string> RiskModelLines(const RiskModel& model) {
+  std::vector<std::string> lines = {fmt::format("risk_model.json: rates of {} from {}",
+                                                CountText(model.kinds.size(), "kind"),
+                                                CountText(model.encounters, "encounter"))};
   for (const UnmeasuredKind& kind : model.unmeasured)
-    text += fmt::format("\n  {} {}: {}", kind.type, Name(kind.passage), kind.why);
+    lines.push_back(fmt::format("  {} {}: {}", kind.type, Name(kind.passage), kind.why));
   if (const CarryOver& carried = model.carry_over; carried.plans > 0)
-    text += fmt::format(
-        "\n  of {} plans' {} drives {:.0f} were to fail by these rates and {} did: where rates "
+    lines.push_back(fmt::format(
+        "  of {} plans' {} drives {:.0f} were to fail by these rates and {} did: where rates "
         "come to 10 %, 30 %, 60 %, plans fail in {}, {}, {}",
         carried.plans, carried.drives, carried.expected, carried.failed,
-        PercentText(carried.Of(0.1)), PercentText(carried.Of(0.3)), PercentText(carried.Of(0.6)));
-  return text;
+        PercentText(carried.Of(0.1)), PercentText(carried.Of(0.3)), PercentText(carried.Of(0.6))));
+  return lines;
 }
 
 }  // namespace floorproof

@@ -35,8 +35,7 @@ std::optional<RiskModel> FitRiskModel(const CampaignStore& store, const RobotMod
                                       const std::filesystem::path& folder);
 // Writes risk_model.json.
 void WriteRiskModel(const RiskModel& model, const std::filesystem::path& folder);
-// For people: how many kinds were fitted, and which were not; what was learned from
-// plans.
-std::string RiskModelText(const RiskModel& model);
+// For people: how many kinds were fitted, and which were not; what was learned from plans.
+std::vector<std::string> RiskModelLines(const RiskModel& model);
 
 }  // namespace floorproof
