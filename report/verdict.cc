@@ -45,6 +45,7 @@ std::string OtherEnds(const VariantSummary& v) {
   std::string text;
   if (v.timeout > 0) text += fmt::format(", {} ran out of time", FixedText(v.timeout, 0));
   if (v.aborted > 0) text += fmt::format(", {} stopped by themselves", FixedText(v.aborted, 0));
+  if (v.not_planned > 0) text += fmt::format(", {} had no plan", FixedText(v.not_planned, 0));
   return text;
 }
 
@@ -115,7 +116,7 @@ std::string PlainTone(const Report& report) {
     if (!v.failures.empty()) {
       driven += v.failures.front().n;
       failed += v.failures.front().k;
-      other += v.timeout + v.aborted;
+      other += v.timeout + v.aborted + v.not_planned;
     }
   return driven == 0 ? "" : failed > 0 ? "failed" : other > 0 ? "undecided" : "passed";
 }

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "run/campaign/campaign_gate.h"
 #include "run/campaign/repetition.h"
 #include "run/scenario/draws.h"
 #include "stats/paired.h"
@@ -16,6 +18,8 @@ namespace floorproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kNotSuccess = "not_success";
 
 // A row without its texts, of which a hundred thousand would not fit.
 struct BriefRow {
@@ -81,7 +85,9 @@ std::string DifferentDraws(const std::string& text_a, const std::string& text_b)
   return text;
 }
 
-// Fills in how many episodes there are of which side.
+bool Counts(const Pair& pair) { return pair.a.row.counts() && pair.b.row.counts(); }
+
+// Of all but errors: those without a plan, too. Fills in how many episodes count on one side alone.
 std::vector<Pair> Pairs(const CampaignStore& a, const CampaignStore& b, PlanFigures& figures,
                         Comparison& out) {
   const auto brief = [&](EpisodeRow row) {
@@ -94,16 +100,14 @@ std::vector<Pair> Pairs(const CampaignStore& a, const CampaignStore& b, PlanFigu
   };
   std::map<std::uint64_t, BriefRow> rows;
   a.ForEach(out.a, [&](const EpisodeRow& row) {
-    if (row.counts()) rows.emplace(row.episode, brief(row));
+    out.only_a += row.counts();
+    if (CountsBy(kNotSuccess, row)) rows.emplace(row.episode, brief(row));
   });
   std::vector<Pair> pairs;
   b.ForEach(out.b, [&](const EpisodeRow& row) {
+    out.only_b += row.counts();
     const auto found = rows.find(row.episode);
-    if (!row.counts()) return;
-    if (found == rows.end()) {
-      ++out.only_b;
-      return;
-    }
+    if (found == rows.end() || !CountsBy(kNotSuccess, row)) return;
     if (const std::string differs = DifferentDraws(found->second.row.drawn, row.drawn);
         !differs.empty())
       throw InputError({}, "episode", std::to_string(row.episode),
@@ -114,8 +118,9 @@ std::vector<Pair> Pairs(const CampaignStore& a, const CampaignStore& b, PlanFigu
     pairs.back().a.row.drawn.clear();
     pairs.back().b.row.drawn.clear();
   });
-  out.n = static_cast<int>(pairs.size());
-  out.only_a = static_cast<int>(rows.size()) - out.n;
+  out.n = static_cast<int>(std::ranges::count_if(pairs, Counts));
+  out.only_a -= out.n;
+  out.only_b -= out.n;
   return pairs;
 }
 
@@ -124,9 +129,9 @@ void JoinRepeated(std::vector<Pair>& pairs, Comparison& out) {
   Repetition repetition;
   for (const Pair& pair : pairs) repetition.Add(pair.a.result + pair.b.result);
   if (!repetition.repeated()) return;
-  out.repeats = out.n;
-  out.n = 1;
+  out.repeats = static_cast<int>(pairs.size());
   pairs.resize(1);
+  out.n = Counts(pairs.front()) ? 1 : 0;
 }
 
 // What sums of numbers as large as these may have by rounding where they should have nothing.
@@ -229,14 +234,16 @@ Comparison CompareVariants(const CampaignStore& a, const std::string& variant_a,
   out.b = variant_b;
   std::vector<Pair> pairs = Pairs(a, b, figures, out);
   JoinRepeated(pairs, out);
+  ComparedFailure not_success = CompareFailures(
+      kNotSuccess, pairs, [](const EpisodeRow& row) { return FailsBy(kNotSuccess, row); });
+  std::erase_if(pairs, std::not_fn(Counts));
   out.failures.push_back(CompareFailures("any_failure", pairs,
                                          [](const EpisodeRow& row) { return row.any_failure(); }));
   for (std::size_t m = 0; m < kNumFailureModes; ++m)
     out.failures.push_back(
         CompareFailures(std::string(Name(static_cast<FailureMode>(m))), pairs,
                         [m](const EpisodeRow& row) { return row.events_of[m] > 0; }));
-  out.failures.push_back(CompareFailures(
-      "not_success", pairs, [](const EpisodeRow& row) { return row.outcome != "success"; }));
+  out.failures.push_back(std::move(not_success));
   for (std::size_t i = 0; i < kMetrics.size(); ++i) {
     ComparedMetric compared{std::string(kMetrics[i].name), kMetrics[i].needs_success, {}, {}};
     std::vector<double> differences;

@@ -43,7 +43,9 @@ struct ComparedPlans {
 };
 struct Comparison {
   std::string a, b;
-  int n = 0;        // pairs of episodes that count in both: no errors, none without a plan
+  // Pairs of episodes that count in both: no errors, none without a plan; `not_success` is of these
+  // and of those without a plan.
+  int n = 0;
   int repeats = 0;  // pairs that came out the same, to the last bit, and count as one: n is 1
   int only_a = 0, only_b = 0;             // episodes that count on one side alone
   std::vector<ComparedFailure> failures;  // any_failure, each mode, not_success

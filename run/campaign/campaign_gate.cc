@@ -83,8 +83,10 @@ std::optional<CampaignGate> CampaignGate::Read(const ConfigNode& node, std::uint
   return gate;
 }
 
-bool CampaignGate::Judges(const EpisodeRow& row) const {
-  return row.counts() || (row.outcome == "not_planned" && params_.metric == "not_success");
+bool CampaignGate::Judges(const EpisodeRow& row) const { return CountsBy(params_.metric, row); }
+
+bool CountsBy(std::string_view metric, const EpisodeRow& row) {
+  return row.counts() || (row.outcome == "not_planned" && metric == "not_success");
 }
 
 bool FailsBy(std::string_view metric, const EpisodeRow& row) {

@@ -23,6 +23,9 @@ struct GateParams {
   void Visit(ParamVisitor& v);
 };
 
+// Whether the episode counts in rates of this metric: no error does; one without a plan does in
+// not_success alone.
+bool CountsBy(std::string_view metric, const EpisodeRow& row);
 // Whether the episode fails by this metric: a mode, any_failure or not_success.
 bool FailsBy(std::string_view metric, const EpisodeRow& row);
 

@@ -286,7 +286,9 @@ std::vector<VariantDependence> DependenceOf(const CampaignStore& store,
   for (const VariantSummary& variant : summary.variants) {
     Table table{.metric = summary.gate ? summary.gate->metric : VariantDependence{}.metric};
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
-      if (row.counts() && row.driven()) table.Add(row);
+      // What was not driven can only be a plan that is there or not.
+      if (CountsBy(table.metric, row) && (row.driven() || table.metric == "not_success"))
+        table.Add(row);
     });
     out.push_back(Depend(table, variant, limit));
   }

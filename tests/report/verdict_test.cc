@@ -93,6 +93,9 @@ TEST(Verdict, WithoutAGateIsColouredByWhetherAnythingFailed) {
   EXPECT_THAT(VerdictBox(Of({Summary("a", 0, 20)})), StartsWith("<div class=\"verdict passed\">"));
   EXPECT_THAT(VerdictBox(Of({Summary("a", 1, 20)})), StartsWith("<div class=\"verdict failed\">"));
   EXPECT_THAT(VerdictBox(Of({Summary("a", 0, 0)})), StartsWith("<div class=\"verdict \">"));
+  VariantSummary some = Summary("a", 0, 20);
+  some.not_planned = 5;
+  EXPECT_THAT(VerdictBox(Of({some})), StartsWith("<div class=\"verdict undecided\">"));
 }
 
 // No failure is no success: a robot that runs out of time has not done its work.
@@ -101,9 +104,11 @@ TEST(Verdict, WhatIsNoSuccessIsSaidAndIsNotGreen) {
   variant.success = 0;
   variant.timeout = 11;
   variant.aborted = 1;
+  variant.not_planned = 3;
   const Report report = Of({variant});
-  EXPECT_THAT(VerdictText(report),
-              testing::EndsWith(" at 95 %, 11 ran out of time, 1 stopped by themselves."));
+  EXPECT_THAT(
+      VerdictText(report),
+      testing::EndsWith(" at 95 %, 11 ran out of time, 1 stopped by themselves, 3 had no plan."));
   EXPECT_THAT(VerdictBox(report), StartsWith("<div class=\"verdict undecided\">"));
 }
 

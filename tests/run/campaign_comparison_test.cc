@@ -120,6 +120,10 @@ TEST_F(CompareVariantsTest, WhatDoesNotCountHasNoPair) {
   EXPECT_EQ(dut.n, 1);
   EXPECT_EQ(dut.only_a, 2);
   EXPECT_EQ(dut.only_b, 0);
+  const ComparedFailure& not_success = dut.failures.back();
+  EXPECT_EQ(not_success.only_b, 1) << "there was no plan";
+  EXPECT_EQ(not_success.neither, 1);
+  EXPECT_EQ(dut.failures.front().neither, 1) << "nobody failed who did not drive";
 }
 
 TEST_F(CompareVariantsTest, PairsThatAreEqualAreOnePair) {

@@ -117,11 +117,31 @@ TEST_F(DependenceTest, OnlyEpisodesThatCountDo) {
   const auto all = Depend(200, LowFriction);
   const auto some = Depend(260, [](std::uint64_t id, Stream& stream) {
     Episode episode = LowFriction(id, stream);
-    if (id >= 200) episode.outcome = id % 2 == 0 ? "error" : "not_planned";
+    if (id >= 200) episode.outcome = "error";
     return episode;
   });
   EXPECT_EQ(some.n, 200);
   EXPECT_EQ(DependenceCsv({some}), DependenceCsv({all}));
+}
+
+// No sill above 10 mm is crossed, for want of a plan: those heights are not safe.
+TEST_F(DependenceTest, WithoutAPlanThereIsNoSuccess) {
+  const auto sill = [](std::uint64_t, Stream& stream) {
+    const double height_mm = stream.Uniform(2, 12);
+    return Episode{{{"height_mm", height_mm}}, false, height_mm > 10 ? "not_planned" : ""};
+  };
+  const auto dut = Depend(300, sill);
+  EXPECT_EQ(dut.n, 300);
+  EXPECT_NEAR(dut.k, 60, 25);
+  EXPECT_TRUE(dut.values[0].telling());
+  ASSERT_TRUE(dut.values[0].safe && dut.values[0].safe->up_to);
+  EXPECT_LT(dut.values[0].safe->up_to->edge, 10.6);
+  GateSummary gate;
+  gate.metric = "any_failure";
+  gate.max_rate = 0.05, gate.confidence = 0.95;
+  const auto driven = Depend(300, sill, gate);
+  EXPECT_EQ(driven.n, 300 - dut.k) << "no robot failed";
+  EXPECT_EQ(driven.k, 0);
 }
 
 // As people say it: 0.0159 m is 15.9 mm, and an edge is rounded so that no value beyond it is
