@@ -93,7 +93,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
         lines.push_back(std::move(said));
       }
       json["check"] = PlanCheckJson(scenario, check);
-      faults = PlanFaults(plan, check, lines);
+      faults = PlanFaults(scenario, plan, check, lines);
       json["faults"] = faults;
     } else {
       globals.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));

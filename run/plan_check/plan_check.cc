@@ -175,10 +175,14 @@ void AddUncovered(const HazardMap& floor, const RobotSpec& robot, const PlanResu
   if (u.pockets.size() <= kListed) return;
   lines.push_back(
       fmt::format("  and {} more, {} m2", u.pockets.size() - kListed, NumberText(more_m2)));
-  const auto gap = std::ranges::find_if(u.pockets, IsGap);
-  if (gap != u.pockets.end() && gap >= u.pockets.begin() + kListed)
-    lines.back() += fmt::format(", one of them within reach of the tool: {} m2 around {}",
-                                NumberText(gap->area_m2), At(gap->p_W));
+  const std::span<const UncoveredPocket> rest = std::span(u.pockets).subspan(kListed);
+  const auto gap = std::ranges::find_if(rest, IsGap);
+  if (gap == rest.end()) return;
+  const auto gaps = std::ranges::count_if(rest, IsGap);
+  lines.back() +=
+      fmt::format(", {} of them within reach of the tool{}: {} m2 around {}",
+                  gaps == 1 ? "one" : std::to_string(gaps), gaps == 1 ? "" : ", the largest",
+                  NumberText(gap->area_m2), At(gap->p_W));
 }
 
 // Of an audit: how long its tour is against the shortest there can be, and which places it lacks.
@@ -292,8 +296,28 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
   return lines;
 }
 
-std::vector<std::string> PlanFaults(const PlanResult& plan, const PlanCheck& check,
-                                    std::span<const std::string> lines) {
+namespace {
+
+// A plan of the user's own is taken for one that covers, unless `success` says otherwise.
+bool IsToCover(const Scenario& s) {
+  if (s.episode.min_coverage > 0) return true;
+  if (s.planner) return s.planner->promises().covers != PlannerPromises::Covers::kNothing;
+  return !s.written.contains("success");
+}
+
+// Every plan leaves a corner here and there.
+bool LeavesTooMuch(const UncoveredFloor& u) {
+  constexpr double kMostAtOnce_m2 = 1, kMostOfFloor = 0.01;
+  double all_m2 = 0, largest_m2 = 0;
+  for (const UncoveredPocket& pocket : u.pockets)
+    if (IsGap(pocket)) all_m2 += pocket.area_m2, largest_m2 = std::max(largest_m2, pocket.area_m2);
+  return largest_m2 > kMostAtOnce_m2 || all_m2 > kMostOfFloor * u.floor_m2;
+}
+
+}  // namespace
+
+std::vector<std::string> PlanFaults(const Scenario& s, const PlanResult& plan,
+                                    const PlanCheck& check, std::span<const std::string> lines) {
   const auto is_missed = [](const SamplePlace& place) { return !place.reachable; };
   const std::string overlaps = ConflictsLine(check.clearance);
   const auto warns = [&](const std::string& line) {
@@ -301,7 +325,7 @@ std::vector<std::string> PlanFaults(const PlanResult& plan, const PlanCheck& che
   };
   std::vector<std::string> faults;
   if (!overlaps.empty()) faults.emplace_back(kPlanFaults[0]);
-  if (plan.samples.empty() ? std::ranges::any_of(check.uncovered.pockets, IsGap)
+  if (plan.samples.empty() ? IsToCover(s) && LeavesTooMuch(check.uncovered)
                            : std::ranges::any_of(plan.samples, is_missed))
     faults.emplace_back(kPlanFaults[1]);
   if (std::ranges::any_of(lines, warns)) faults.emplace_back(kPlanFaults[2]);

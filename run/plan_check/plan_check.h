@@ -37,11 +37,12 @@ PlanCheck CheckPlan(Scenario& scenario, const PlanResult& plan);
 // hazards and pockets at most five each are listed, the rest counted.
 std::vector<std::string> PlanLines(const Scenario& scenario, const PlanResult& plan,
                                    const PlanCheck& check);
-// Which of kPlanFaults it has: an overlap with an obstacle; a gap, which is a pocket that the tool
-// could reach or a sample that it cannot; a warning, of `lines`, that is no overlap.
+// Which of kPlanFaults it has: an overlap with an obstacle; a gap: pockets that the tool could
+// reach above 1 m2, or together above 1 % of the free floor, where floor is to be covered, or a
+// sample that it cannot reach; a warning, of `lines`, that is no overlap.
 inline constexpr std::array<std::string_view, 3> kPlanFaults = {"overlap", "gap", "warning"};
-std::vector<std::string> PlanFaults(const PlanResult& plan, const PlanCheck& check,
-                                    std::span<const std::string> lines);
+std::vector<std::string> PlanFaults(const Scenario& scenario, const PlanResult& plan,
+                                    const PlanCheck& check, std::span<const std::string> lines);
 nlohmann::ordered_json PlanCheckJson(const Scenario& scenario, const PlanCheck& check);
 
 // What it crosses beyond what the robot is trusted to, a warning each, five at most and the rest

@@ -226,12 +226,12 @@ class Finder {
                                                : Why::kClosed;
       of[static_cast<std::size_t>(why)].cells[i] = 1;
     }
-    out_.floor_m2 = static_cast<double>(floor) * cell_m2;
     out_.covered_m2 = static_cast<double>(covered) * cell_m2;
     for (const Why why : {Why::kNotVisited, Why::kNarrow, Why::kBehind, Why::kClosed})
       AddPockets(why, of[static_cast<std::size_t>(why)]);
+    floor += AddLevels();
+    out_.floor_m2 = static_cast<double>(floor) * cell_m2;
     out_.edges_m2 = static_cast<double>(rest_) * cell_m2;
-    AddLevels();
     std::ranges::stable_sort(out_.pockets, std::ranges::greater(), &UncoveredPocket::area_m2);
     return std::move(out_);
   }
@@ -300,8 +300,9 @@ class Finder {
   }
 
   // Floors that the robot does not get onto: of another level, or terrain beyond its measured
-  // limits, as far as they lie within the walls.
-  void AddLevels() {
+  // limits, as far as they lie within the walls. Returns of how many cells they are.
+  std::int64_t AddLevels() {
+    std::int64_t floor = 0;
     for (const Hazard& hazard : known_.hazards) {
       const bool is_floor =
           hazard.hazard_class == HazardClass::kLevelChange || hazard.crossable == false;
@@ -310,10 +311,13 @@ class Finder {
       for (int iy = 0; iy < cells.height; ++iy)
         for (int ix = 0; ix < cells.width; ++ix)
           if (free_(low.ix + ix, low.iy + iy)) cells(ix, iy) = 0;
-      std::int64_t thin = 0;
-      for (const Patch& patch : Patches(cells, least_half_, thin)) {
+      floor += std::ranges::count(cells.cells, 1);
+      for (const Patch& patch : Patches(cells, least_half_, rest_)) {
         const double cell_m = area_.frame.cell_m;
-        if (static_cast<double>(patch.cells) < least_cells_) continue;
+        if (static_cast<double>(patch.cells) < least_cells_) {
+          rest_ += patch.cells;
+          continue;
+        }
         out_.pockets.push_back(
             {Why::kKeptOff,
              static_cast<double>(patch.cells) * cell_m * cell_m,
@@ -324,6 +328,7 @@ class Finder {
              hazard.id});
       }
     }
+    return floor;
   }
 
   HazardMap known_;

@@ -31,7 +31,8 @@ struct UncoveredPocket {
 };
 
 struct UncoveredFloor {
-  double floor_m2 = 0;                   // that is known to be there and free, whoever can reach it
+  // That is known to be there and free, whoever can reach it; floors of another level, too.
+  double floor_m2 = 0;
   double covered_m2 = 0;                 // of it, by the plan
   std::vector<UncoveredPocket> pockets;  // the largest first
   double edges_m2 = 0;  // along walls, in corners and between rows: too thin to be a pocket

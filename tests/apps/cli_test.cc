@@ -236,6 +236,7 @@ TEST_F(Cli, APlanIsJudgedStrictlyOnDemand) {
   EXPECT_EQ(plan(into_wall, "--strict --allow gap").status, 1);
   EXPECT_EQ(plan(into_wall, "--strict --allow gap,overlap").status, 0);
   EXPECT_EQ(plan(short_way, "--strict").status, 1);
+  EXPECT_EQ(plan(short_way, "--strict --set success.min_coverage=0").status, 0) << "none is asked";
   EXPECT_EQ(plan(short_way, "--strict --allow gap").status, 0);
   EXPECT_EQ(plan(short_way, "--strict --allow gap --set success.min_coverage=0.9").status, 1);
   const Result unknown = plan(short_way, "--strict --allow gaps");

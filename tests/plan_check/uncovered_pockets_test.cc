@@ -109,19 +109,21 @@ TEST_F(UncoveredTest, WhatClosesTheWayIsNamedAndNotWhatIsNearest) {
   }
 }
 
-// On a raised floor, or in a pit, that floor is what is free, and the base floor is another level:
-// within the walls alone.
-TEST_F(UncoveredTest, TheFloorIsThatOfTheStart) {
+// From a raised floor, or out of a pit, the base floor is another level, within the walls alone: of
+// the free floor, but none that the robot gets to. What is listed adds up to what is said.
+TEST_F(UncoveredTest, FloorsOfOtherLevelsAreUncovered) {
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n5,2.5\n");
   for (const char* height_m : {"0.05", "-0.05"}) {
     const UncoveredFloor dut =
         Find(Read(RoomScenario(std::string("{type: step, height_m: ") + height_m +
                                ", polygon_m: [[0.75,0.75],[6,0.75],[6,4],[0.75,4]]}")));
-    EXPECT_NEAR(dut.floor_m2, 5.25 * 3.25, 0.05);
+    EXPECT_NEAR(dut.floor_m2, 8 * 4, 0.05);
     EXPECT_NEAR(dut.covered_m2, 3.5 * 0.3 + 0.07, 0.1);
     ASSERT_THAT(dut.pockets, SizeIs(2)) << height_m;
     EXPECT_EQ(dut.pockets[0].why, Why::kNotVisited);
-    EXPECT_NEAR(dut.pockets[0].area_m2, dut.floor_m2 - dut.covered_m2 - dut.edges_m2, 1e-6);
+    EXPECT_NEAR(dut.pockets[0].area_m2, 5.25 * 3.25 - dut.covered_m2 - dut.edges_m2, 0.05);
+    EXPECT_NEAR(dut.pockets[0].area_m2 + dut.pockets[1].area_m2,
+                dut.floor_m2 - dut.covered_m2 - dut.edges_m2, 1e-6);
     EXPECT_EQ(dut.pockets[1].why, Why::kKeptOff);
     EXPECT_EQ(dut.pockets[1].hazard, "base_floor");
     EXPECT_NEAR(dut.pockets[1].area_m2, 8 * 4 - 5.25 * 3.25, 0.5);
