@@ -120,8 +120,11 @@ void RateFeatures::At(std::span<const double> x, std::span<double> out) const {
 RateEvaluator::RateEvaluator(const KindRates& kind)
     : kind_(kind), last_(LastMode(kind)), features_(kind.axes, AllBlocks(kind)) {
   if (!kind.per_metre)  // whose metres count as it is
-    for (const RateAxis& axis : kind.axes)
-      if (!axis.of_hazard && axis.name == "over_m" && axis.upper > 0) longest_m_ = axis.upper;
+    for (const RateAxis& axis : kind.axes) {
+      if (axis.of_hazard || axis.upper <= 0) continue;
+      if (axis.name == "over_m") longest_m_ = axis.upper;
+      if (axis.name == "turn_rad") most_turn_rad_ = axis.upper;
+    }
   best_.setZero(features_.size(), kEtas);
   members_ = Rows::Zero(features_.size(), kEtas * kRateMembers);
   change_ = Rows::Zero(kind.axes.size(), kEtas);

@@ -40,8 +40,11 @@ class RateEvaluator {
   explicit RateEvaluator(const KindRates& kind);  // outlives it
   const KindRates& kind() const { return kind_; }
 
-  // As how many of the longest that were measured a meeting counts that is longer: at least 1.
-  double TimesMeasured(const Approach& at) const { return std::max(1.0, at.over_m / longest_m_); }
+  // As how many of the longest that were measured a meeting counts that is longer, or of those with
+  // the most turns one that turns more: at least 1.
+  double TimesMeasured(const Approach& at) const {
+    return std::max({1.0, at.over_m / longest_m_, std::abs(at.turn_rad) / most_turn_rad_});
+  }
   // Largest over the axes (rate_model.h).
   double Beyond(std::span<const double> x) const;
   // By the best coefficients. A meeting's, or a metre's.
@@ -65,6 +68,7 @@ class RateEvaluator {
   FailureMode last_;
   double longest_m_ =
       std::numeric_limits<double>::infinity();  // measured; of any length: not known
+  double most_turn_rad_ = std::numeric_limits<double>::infinity();
   RateFeatures features_;
   Eigen::Matrix<double, Eigen::Dynamic, kEtas, Eigen::RowMajor> best_;  // by feature
   Rows members_;  // by feature, by member and eta

@@ -15,11 +15,13 @@
 
 #include "base/params.h"
 #include "base/quantity.h"
+#include "env/core/failure_text.h"
 #include "env/core/ramp_ends.h"
 #include "planners/risk/model_rates.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/plain_draws.h"
 #include "run/episode/plan_inputs.h"
+#include "run/plan_check/driven_over.h"
 #include "run/plan_check/expected_encounters.h"
 #include "run/scenario/floors.h"
 
@@ -55,7 +57,13 @@ class Predictor {
                        "there is none (" + std::string(Name(plan_.status)) + "): " + plan_.message);
     expected_ = ExpectedEncounters(s, plan_);
     if (conditions_.empty()) left_out_ = LeftOut(s);
-    FindLooseRamps(s);
+    const HazardMap floor = TrueFloor(s);
+    FindLooseRamps(floor);
+    FindOtherFloors(floor, s);
+    if (conditions_.empty())
+      first_floor_ = OutlinesOf(floor);
+    else
+      floors_differ_ = floors_differ_ || OutlinesOf(floor) != first_floor_;
   }
 
   // The meetings as this episode has them, which draws nothing that moves them.
@@ -103,11 +111,12 @@ class Predictor {
     }
     for (auto& [at, beyond] : beyond_) out.beyond.push_back(std::move(beyond));
     out.left_out = std::move(left_out_);
-    for (const auto& [ramp, text] : loose_ramps_) out.left_out.push_back(text);
+    for (const auto& [id, text] : unknown_) out.left_out.push_back(text);
+    out.floors_differ = floors_differ_;
     out.far_beyond = std::move(far_beyond_);
     out.held_against_plans = model_->carry_over.plans;
     for (auto& [kind, unmeasured] : unmeasured_) out.unmeasured.push_back(std::move(unmeasured));
-    if (!out.unmeasured.empty() || !loose_ramps_.empty() || out.far_beyond) KnowNothing(out);
+    if (!out.unmeasured.empty() || !unknown_.empty() || out.far_beyond) KnowNothing(out);
     return out;
   }
 
@@ -116,17 +125,33 @@ class Predictor {
  private:
   static constexpr double kNear = 0.02;  // of the measured range: as good as within
 
-  // The rates of ramps were measured on ramps that lead to a floor.
-  // Those of any condition, each as the first one has it.
-  void FindLooseRamps(const Scenario& s) {
-    const HazardMap floor = TrueFloor(s);
+  // The rates of ramps were measured on ramps that lead to a floor. Those of any condition, each as
+  // the first one has it.
+  void FindLooseRamps(const HazardMap& floor) {
     for (const Hazard& hazard : floor.hazards) {
       const auto end = FindLooseRampEnd(floor, hazard);
       if (end && std::ranges::find(expected_, hazard.id, &Encounter::hazard) != expected_.end())
-        loose_ramps_.emplace(hazard.id, fmt::format("the end of ramp {}, {} {} the floor beyond",
-                                                    hazard.id, LengthText(std::abs(end->off_m)),
-                                                    end->off_m > 0 ? "above" : "below"));
+        unknown_.emplace(hazard.id, fmt::format("the end of ramp {}, {} {} the floor beyond",
+                                                hazard.id, LengthText(std::abs(end->off_m)),
+                                                end->off_m > 0 ? "above" : "below"));
     }
+  }
+
+  // Seen from a raised or a sunk floor on which the robot starts, the others have no keys by which
+  // a meeting could be rated.
+  void FindOtherFloors(const HazardMap& floor, const Scenario& s) {
+    for (const DrivenOver& over : FindDrivenOver(s, plan_))
+      if (const Hazard& hazard = floor.hazards[over.hazard]; hazard.keys.empty())
+        unknown_.emplace(hazard.id,
+                         fmt::format("the edge of {}, crossed {}", ObstaclePhrase(floor, hazard.id),
+                                     CountText(over.times, "time")));
+  }
+
+  static std::vector<std::pair<std::string, std::vector<Polygon>>> OutlinesOf(
+      const HazardMap& floor) {
+    std::vector<std::pair<std::string, std::vector<Polygon>>> outlines;
+    for (const Hazard& hazard : floor.hazards) outlines.emplace_back(hazard.id, hazard.footprint);
+    return outlines;
   }
 
   static std::vector<std::string> LeftOut(const Scenario& s) {
@@ -134,6 +159,11 @@ class Predictor {
     if (s.estimator_name != "truth")
       left_out.push_back("how wrong " + s.estimator_name +
                          " is about the robot's place: it is taken to know it");
+    const std::optional<double> own_v =
+        ReadRobot(s.robot_file, {}, Blocks::kLocked, s.files).spec.battery.voltage_v;
+    if (const std::optional<double>& v = s.robot.spec.battery.voltage_v; v && own_v && *v != *own_v)
+      left_out.push_back(fmt::format("a battery of {} V: the rates were measured at {} V",
+                                     NumberText(*v), NumberText(*own_v)));
     if (!s.faults.empty()) left_out.push_back("what breaks (`faults`)");
     if (s.safety) left_out.push_back("what its supervision does (`safety`)");
     return left_out;
@@ -161,7 +191,9 @@ class Predictor {
     const std::span<const double> x = covariates.Of(met.at);
     for (std::size_t a = 0; a < x.size(); ++a) {
       const RateAxis& axis = kind.axes[a];
-      if (axis.name == "over_m") continue;  // counted as several meetings (TimesMeasured)
+      // A meeting that is longer or turns more counts as several (TimesMeasured). What is passed
+      // stands no more in the way if it is higher or deeper than any that was measured.
+      if (axis.name == "over_m" || axis.name == "turn_rad" || axis.name == kRise) continue;
       if (IsFarBeyond(axis, x[a]))
         return Prediction::FarBeyond{kind.type, axis.name, x[a], axis.lower, axis.upper, number};
     }
@@ -200,7 +232,9 @@ class Predictor {
   PlanResult plan_;
   std::vector<Encounter> expected_;
   std::vector<std::string> left_out_;
-  std::map<std::string, std::string> loose_ramps_;   // by id
+  std::map<std::string, std::string> unknown_;  // by id: met, and no rates are known of it
+  std::vector<std::pair<std::string, std::vector<Polygon>>> first_floor_;
+  bool floors_differ_ = false;
   std::optional<Prediction::FarBeyond> far_beyond_;  // the first one
   std::vector<std::vector<PlannedMeeting>> conditions_;
   std::vector<PredictedMeeting> meetings_;

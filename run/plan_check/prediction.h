@@ -57,10 +57,13 @@ struct Prediction {
   // What the scenario has that rates know nothing of, in words.
   std::vector<std::string> left_out;
   int held_against_plans = 0;  // that were driven: the rates
+  // Hazards lie elsewhere in other draws; places and sizes are those of the first.
+  bool floors_differ = false;
 
-  // If false, the failure probability is a lower bound. The interval ends at 1 if the kind of an
-  // encounter was not measured, a value is far beyond the range, or a ramp does not lead to a
-  // floor.
+  // If false, the failure probability is a lower bound, with a value far beyond the range a guess.
+  // The interval ends at 1 if the kind of an encounter was not measured, a value is far beyond the
+  // range, a ramp does not lead to a floor, or the plan crosses the edge of the floor on which it
+  // starts.
   bool complete() const { return unmeasured.empty() && left_out.empty() && !far_beyond; }
 };
 

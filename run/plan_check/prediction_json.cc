@@ -64,11 +64,15 @@ Json MeetingJson(const PredictedMeeting& meeting) {
 
 std::vector<std::string> PredictionLines(const Prediction& prediction) {
   std::vector<std::string> lines;
+  const Probability any = AnyFailure(prediction);
+  const bool knows_its_end = prediction.left_out.empty() || any.upper == 1;
   lines.push_back(fmt::format(
-      "predicted: {}{} of drives fail, 95 % interval {} to {}; {} of conditions",
-      prediction.complete() ? "" : "at least ", PercentText(AnyFailure(prediction).value),
-      PercentText(AnyFailure(prediction).lower), PercentText(AnyFailure(prediction).upper),
-      CountText(prediction.conditions, "draw")));
+      "predicted: {}{} of drives fail, 95 % interval{} {} to {}; {} of conditions",
+      prediction.far_beyond   ? "perhaps "
+      : prediction.complete() ? ""
+                              : "at least ",
+      PercentText(any.value), knows_its_end ? "" : " of what is in it", PercentText(any.lower),
+      PercentText(any.upper), CountText(prediction.conditions, "draw")));
   for (int m = 0; m < kNumFailureModes; ++m) {
     const Probability& p = prediction.survival.first[static_cast<std::size_t>(m)];
     constexpr double kWorthALine = 5e-4;
@@ -96,6 +100,9 @@ std::vector<std::string> PredictionLines(const Prediction& prediction) {
   for (const Prediction::Unmeasured& kind : prediction.unmeasured)
     lines.push_back(fmt::format("warning: nothing is known of {} {}, met {}: {}", kind.type,
                                 Name(kind.passage), CountText(kind.meetings, "time"), kind.why));
+  if (prediction.floors_differ)
+    lines.push_back(
+        "warning: hazards lie elsewhere in other draws: places and sizes are those of the first");
   for (const std::string& left_out : prediction.left_out)
     lines.push_back("warning: not in it: " + left_out);
   for (const Prediction::Beyond& beyond : prediction.beyond)
@@ -157,6 +164,7 @@ Json PredictionJson(const Scenario& s, const Prediction& prediction, const Json&
                                     {"beyond", beyond.share},
                                     {"meeting", beyond.meeting}});
   json["far_beyond"] = prediction.far_beyond.has_value();
+  json["floors_differ"] = prediction.floors_differ;
   json["left_out"] = prediction.left_out;
   json["held_against_plans"] = prediction.held_against_plans;
   return json;

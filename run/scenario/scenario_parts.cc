@@ -271,8 +271,9 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
                          FormatDouble(kMostSteps * step_m) + " m");
 }
 
-// What the scenario changes of the robot that rates do not depend on; empty: nothing. They know of
-// mass and clearance.
+// What the scenario changes of the robot by which it is another one; empty: nothing. Rates know of
+// mass and clearance; a battery that is less than full is left out of a prediction
+// (run/plan_check/prediction.h).
 std::string ChangedBeyondRates(const Scenario& s) {
   const RobotChanges& changes = s.robot_changes;
   if (changes.roller_radius_m) return "robot.roller_radius_m";
@@ -282,7 +283,10 @@ std::string ChangedBeyondRates(const Scenario& s) {
   for (std::size_t i = 0; i < own.wheels.size(); ++i)
     if (own.wheels[i].radius_m != changed.wheels[i].radius_m) return "robot.wheel_radius_m";
   if (own.shape != changed.shape) return "robot.shape";
-  if (own.battery.voltage_v != changed.battery.voltage_v) return "battery.voltage_v";
+  constexpr double kLow = 0.8, kFull = 1.1;  // of its voltage: a battery in use
+  const std::optional<double>&own_v = own.battery.voltage_v, &v = changed.battery.voltage_v;
+  if (v != own_v && (!v || !own_v || *v < kLow * *own_v || *v > kFull * *own_v))
+    return "battery.voltage_v";
   return "";
 }
 

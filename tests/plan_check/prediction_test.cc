@@ -233,6 +233,18 @@ TEST_F(PredictionTest, ARampThatLeadsToNothingMayAlwaysFail) {
   EXPECT_EQ(dut.survival.no_failure.lower, 0);
 }
 
+// From a carpet on which it starts the floor beside is a level change without keys.
+TEST_F(PredictionTest, TheEdgeOfTheFloorOnWhichItStartsMayAlwaysFail) {
+  SaveModel(0.01, 0.01);
+  const Prediction dut =
+      Predict(File("{type: step, id: rug, height_m: 0.006, polygon_m: [[0.5, 0.5], [3, 0.5], "
+                   "[3, 4.5], [0.5, 4.5]]}"),
+              {}, 1);
+  EXPECT_FALSE(dut.complete());
+  EXPECT_THAT(dut.left_out, Contains(HasSubstr("the edge of 'base_floor'")));
+  EXPECT_EQ(dut.survival.no_failure.lower, 0);
+}
+
 // A robot that is wrong about its place, what breaks and who watches it: rates know nothing of it.
 TEST_F(PredictionTest, WhatIsNotInItIsSaid) {
   SaveModel(0.2, 0.2);
@@ -290,6 +302,11 @@ TEST_F(PredictionTest, WhatCannotBePredictedIsRefusedInALine) {
   }
   EXPECT_NO_THROW(
       Predict(ScenarioFile(Save("scenario.yaml", room), {{"robot.clearance_m", "0.024"}}), {}, 1));
+  // A battery in use, as `init` draws it.
+  const Prediction used =
+      Predict(ScenarioFile(Save("scenario.yaml", room), {{"battery.voltage_v", "11"}}), {}, 1);
+  EXPECT_THAT(used.left_out, ElementsAre("a battery of 11 V: the rates were measured at 12 V"));
+  EXPECT_THAT(PredictionLines(used), Contains(HasSubstr("95 % interval of what is in it")));
   EXPECT_THAT(WhyRefused("plan: {planner: frontier_coverage}\n"), HasSubstr("plan"));
   std::filesystem::remove(folder_ / "model.json");
   EXPECT_THAT(WhyRefused(), HasSubstr("model.json"));
