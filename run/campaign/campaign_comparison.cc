@@ -87,7 +87,7 @@ std::string DifferentDraws(const std::string& text_a, const std::string& text_b)
 
 bool Counts(const Pair& pair) { return pair.a.row.counts() && pair.b.row.counts(); }
 
-// Of all but errors: those without a plan, too. Fills in how many episodes count on one side alone.
+// Pairs of all episodes but errors. Counts the episodes that one side alone has.
 std::vector<Pair> Pairs(const CampaignStore& a, const CampaignStore& b, PlanFigures& figures,
                         Comparison& out) {
   const auto brief = [&](EpisodeRow row) {

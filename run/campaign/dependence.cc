@@ -286,7 +286,7 @@ std::vector<VariantDependence> DependenceOf(const CampaignStore& store,
   for (const VariantSummary& variant : summary.variants) {
     Table table{.metric = summary.gate ? summary.gate->metric : VariantDependence{}.metric};
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
-      // What was not driven can only be a plan that is there or not.
+      // Without a drive the only question is whether there is a plan.
       if (CountsBy(table.metric, row) && (row.driven() || table.metric == "not_success"))
         table.Add(row);
     });

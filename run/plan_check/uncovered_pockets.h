@@ -31,7 +31,7 @@ struct UncoveredPocket {
 };
 
 struct UncoveredFloor {
-  // That is known to be there and free, whoever can reach it; floors of another level, too.
+  // Known and free, in reach or not; floors of other levels, too.
   double floor_m2 = 0;
   double covered_m2 = 0;                 // of it, by the plan
   std::vector<UncoveredPocket> pockets;  // the largest first

@@ -271,8 +271,8 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
                          FormatDouble(kMostSteps * step_m) + " m");
 }
 
-// What the scenario changes of the robot by which it is another one; empty: nothing. Rates know of
-// mass and clearance; a battery that is less than full is left out of a prediction
+// The first change of the scenario that makes another robot; empty: none. Rates depend on mass and
+// clearance; a prediction reports a battery that is not full as left out
 // (run/plan_check/prediction.h).
 std::string ChangedBeyondRates(const Scenario& s) {
   const RobotChanges& changes = s.robot_changes;

@@ -109,8 +109,8 @@ TEST_F(UncoveredTest, WhatClosesTheWayIsNamedAndNotWhatIsNearest) {
   }
 }
 
-// From a raised floor, or out of a pit, the base floor is another level, within the walls alone: of
-// the free floor, but none that the robot gets to. What is listed adds up to what is said.
+// From a raised floor, or out of a pit, the base floor is another level, within the walls alone:
+// part of the free floor that the robot cannot reach. The pockets add up to the total.
 TEST_F(UncoveredTest, FloorsOfOtherLevelsAreUncovered) {
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n5,2.5\n");
   for (const char* height_m : {"0.05", "-0.05"}) {
