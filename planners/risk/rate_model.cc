@@ -113,7 +113,7 @@ double Beyond(const RateAxis& axis, double x) {
 
 bool IsFarBeyond(const RateAxis& axis, double x) {
   constexpr double kShare = 0.25, kFactor = 1.5;
-  constexpr std::string_view kScales[] = {"speed_mps", "friction", "mass_kg", "clearance_m"};
+  constexpr std::string_view kScales[] = {"friction", "mass_kg", "clearance_m"};
   if (Beyond(axis, x) > kShare) return true;
   const bool is_scale =
       axis.of_hazard || std::ranges::find(kScales, axis.name) != std::end(kScales);

@@ -189,7 +189,7 @@ class Covariates {
 // always the same: of its value).
 double Beyond(const RateAxis& axis, double x);
 // So far beyond that the fitted curve is worthless: by more than a quarter of the range; of sizes,
-// speeds, friction, mass and clearance also by a factor of 1.5. Not of distances and errors of
+// friction, mass and clearance also by a factor of 1.5. Not of speeds, distances and errors of
 // place, which may well be 0.
 bool IsFarBeyond(const RateAxis& axis, double x);
 

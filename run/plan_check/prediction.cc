@@ -191,9 +191,11 @@ class Predictor {
     const std::span<const double> x = covariates.Of(met.at);
     for (std::size_t a = 0; a < x.size(); ++a) {
       const RateAxis& axis = kind.axes[a];
-      // A meeting that is longer or turns more counts as several (TimesMeasured). What is passed
-      // stands no more in the way if it is higher or deeper than any that was measured.
-      if (axis.name == "over_m" || axis.name == "turn_rad" || axis.name == kRise) continue;
+      // A meeting that is longer or turns more counts as several (TimesMeasured). Larger things
+      // stand no more in the way of a robot that passes them.
+      if (axis.name == "over_m" || axis.name == "turn_rad" ||
+          (axis.of_hazard && kind.passage == Passage::kBeside))
+        continue;
       if (IsFarBeyond(axis, x[a]))
         return Prediction::FarBeyond{kind.type, axis.name, x[a], axis.lower, axis.upper, number};
     }

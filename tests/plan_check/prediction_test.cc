@@ -215,6 +215,8 @@ TEST(FarBeyond, IsAFactorOfWhatCannotBeZeroAlone) {
   EXPECT_FALSE(is_far("wall_m", false, 0.0101528, 1, 0));
   EXPECT_FALSE(is_far("estimate_error_m", false, 1.86702e-06, 0.136975, 0));
   EXPECT_FALSE(is_far("gap_m", false, 5.85e-05, 0.0998, 0));
+  EXPECT_FALSE(is_far("speed_mps", false, 0.045, 0.4, 0)) << "it starts there";
+  EXPECT_TRUE(is_far("speed_mps", false, 0.045, 0.4, 0.5));
   EXPECT_TRUE(is_far("estimate_error_m", false, 1.86702e-06, 0.136975, 0.2));
   EXPECT_TRUE(is_far("friction", true, 0.0205, 0.6, 0.001)) << "of a wet floor";
   EXPECT_TRUE(is_far("friction", false, 0.3, 1, 0.19));
