@@ -2,12 +2,13 @@
 #include "env/sim/drop_meter.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace floorproof {
 namespace {
 
 constexpr double kStands = 0.7;         // least vertical part of a normal on which a wheel stands
-constexpr double kNotable_m = 0.001;    // nobody looks below a wheel that has come down by less
+constexpr double kUpright = 0.94;       // 20 degrees: the contact is close to below the axle
 constexpr double kBottomless_m = 1000;  // room where nothing lies below
 
 }  // namespace
@@ -25,10 +26,20 @@ void DropMeter::OnContact(std::size_t wheel, const Vec3& p_W, double normal_z, i
   Wheel& w = wheels_[wheel];
   if (!w.touches || p_W.z() > w.touch_m) w.touch_m = p_W.z();
   w.touches = true;
-  if (normal_z < kStands || (w.stands && p_W.z() <= w.stand_m)) return;
+  if (normal_z < kStands || (w.stands && p_W.z() <= w.stand_W.z())) return;
   w.stands = true;
-  w.stand_m = p_W.z();
+  w.stand_W = p_W;
+  w.stand_up = normal_z;
   w.stand_hazard = hazard;
+}
+
+// Adds up the edges between here and where the surface was seen before, those up taken off.
+void DropMeter::FollowFloor(const Vec3& floor_W, Wheel& w) {
+  constexpr double kFlaw_m = 0.002;
+  const double down_m = w.floor_W.z() - floor_W.z();
+  if (std::abs(down_m) > (floor_W - w.floor_W).head<2>().norm() + kFlaw_m)
+    w.edges_m = std::max(0.0, w.edges_m + down_m);
+  w.floor_W = floor_W;
 }
 
 void DropMeter::Update(const mjModel* m, const mjData* d, std::span<const Vec3> lowest_W,
@@ -38,12 +49,15 @@ void DropMeter::Update(const mjModel* m, const mjData* d, std::span<const Vec3> 
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     Wheel& w = wheels_[i];
     const Vec3& low_W = lowest_W[i];
-    const double down_m = w.stood_m - (w.stands ? w.stand_m : low_W.z());
-    if (w.stood && !w.stands && down_m > kNotable_m) {
+    const double down_m = w.stood_m - (w.stands ? w.stand_W.z() : low_W.z());
+    const bool is_upright = w.stands && w.stand_up > kUpright;
+    if (w.stood && !is_upright) {
+      const double room_m = RoomBelow(d, low_W);
+      FollowFloor({low_W.x(), low_W.y(), low_W.z() - room_m}, w);
       const double edge_m = w.touches ? std::max(0.0, w.touch_m - low_W.z()) : 0;
-      w.most_room_m = std::max(w.most_room_m, edge_m + RoomBelow(d, low_W));
+      if (!w.stands) w.most_room_m = std::max(w.most_room_m, edge_m + room_m);
     }
-    const double drop_m = w.stood ? std::min(down_m, w.most_room_m) : 0;
+    const double drop_m = w.stood ? std::min({down_m, w.most_room_m, w.edges_m}) : 0;
     if (drop_m > truth.drop_m) {
       truth.drop_m = drop_m;
       truth.drop_W = low_W.head<2>();
@@ -52,8 +66,12 @@ void DropMeter::Update(const mjModel* m, const mjData* d, std::span<const Vec3> 
     if (w.stands) {
       if (drop_m > 0)
         truth.landing_mps = std::max(truth.landing_mps, (w.low_m - low_W.z()) / m->opt.timestep);
+      if (is_upright || !w.stood) {
+        w.floor_W = w.stand_W;
+        w.edges_m = 0;
+      }
       w.stood = true;
-      w.stood_m = w.stand_m;
+      w.stood_m = w.stand_W.z();
       w.stood_hazard = w.stand_hazard;
       w.most_room_m = 0;
     }

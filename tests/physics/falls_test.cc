@@ -87,6 +87,23 @@ TEST_P(Falls, DownARampIsNone) {
     }
 }
 
+// Over a ridge a body rocks with its wheels in the air, and comes down on a slope that it drives
+// on.
+TEST_P(Falls, OverTheRidgeOfTwoRampsIsNone) {
+  for (const double slope_deg : {5.0, 7.0})
+    for (const double speed_mps : {0.1, 0.3})
+      ExpectNothing(Over(Strip(fmt::format("type: ramp, id: up, slope_deg: {}, toward_deg: 0, "
+                                           "known: false",
+                                           slope_deg),
+                               3, 4) +
+                             ", " +
+                             Strip(fmt::format("type: ramp, id: down, slope_deg: {}, toward_deg: "
+                                               "180, known: false",
+                                               slope_deg),
+                                   4, 5),
+                         6, speed_mps));
+}
+
 // A step down that the robot climbs, too, and a drop just beyond what is allowed.
 TEST_P(Falls, AStepOfItsOwnIsNone) {
   ExpectNothing(Over(Strip("type: step, id: low, height_m: -0.004, known: false", 4, 8.5), 7));
