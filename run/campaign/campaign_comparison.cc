@@ -19,8 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kNotSuccess = "not_success";
-
 // A row without its texts, of which a hundred thousand would not fit.
 struct BriefRow {
   EpisodeRow row;
@@ -118,9 +116,9 @@ std::vector<Pair> Pairs(const CampaignStore& a, const CampaignStore& b, PlanFigu
     pairs.back().a.row.drawn.clear();
     pairs.back().b.row.drawn.clear();
   });
-  out.n = static_cast<int>(std::ranges::count_if(pairs, Counts));
-  out.only_a -= out.n;
-  out.only_b -= out.n;
+  const auto both = static_cast<int>(std::ranges::count_if(pairs, Counts));
+  out.only_a -= both;
+  out.only_b -= both;
   return pairs;
 }
 
@@ -131,7 +129,6 @@ void JoinRepeated(std::vector<Pair>& pairs, Comparison& out) {
   if (!repetition.repeated()) return;
   out.repeats = static_cast<int>(pairs.size());
   pairs.resize(1);
-  out.n = Counts(pairs.front()) ? 1 : 0;
 }
 
 // What sums of numbers as large as these may have by rounding where they should have nothing.
@@ -234,9 +231,13 @@ Comparison CompareVariants(const CampaignStore& a, const std::string& variant_a,
   out.b = variant_b;
   std::vector<Pair> pairs = Pairs(a, b, figures, out);
   JoinRepeated(pairs, out);
-  ComparedFailure not_success = CompareFailures(
-      kNotSuccess, pairs, [](const EpisodeRow& row) { return FailsBy(kNotSuccess, row); });
+  ComparedFailure not_success =
+      CompareFailures(std::string(kNotSuccess), pairs,
+                      [](const EpisodeRow& row) { return FailsBy(kNotSuccess, row); });
+  // All other rates are of drives: one that was repeated counts once, whatever had no plan.
   std::erase_if(pairs, std::not_fn(Counts));
+  JoinRepeated(pairs, out);
+  out.n = static_cast<int>(pairs.size());
   out.failures.push_back(CompareFailures("any_failure", pairs,
                                          [](const EpisodeRow& row) { return row.any_failure(); }));
   for (std::size_t m = 0; m < kNumFailureModes; ++m)

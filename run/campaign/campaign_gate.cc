@@ -86,12 +86,12 @@ std::optional<CampaignGate> CampaignGate::Read(const ConfigNode& node, std::uint
 bool CampaignGate::Judges(const EpisodeRow& row) const { return CountsBy(params_.metric, row); }
 
 bool CountsBy(std::string_view metric, const EpisodeRow& row) {
-  return row.counts() || (row.outcome == "not_planned" && metric == "not_success");
+  return row.counts() || (row.outcome == "not_planned" && metric == kNotSuccess);
 }
 
 bool FailsBy(std::string_view metric, const EpisodeRow& row) {
   if (metric == "any_failure") return row.any_failure();
-  if (metric == "not_success") return row.outcome != "success";
+  if (metric == kNotSuccess) return row.outcome != "success";
   for (std::size_t m = 0; m < row.events_of.size(); ++m)
     if (metric == Name(static_cast<FailureMode>(m))) return row.events_of[m] > 0;
   return false;

@@ -14,6 +14,9 @@
 
 namespace floorproof {
 
+// The metric of which episodes without a plan are failures, too.
+inline constexpr std::string_view kNotSuccess = "not_success";
+
 struct GateParams {
   std::string metric = "any_failure";  // a mode, any_failure, not_success
   double max_rate = 0.05, confidence = 0.95;

@@ -287,7 +287,7 @@ std::vector<VariantDependence> DependenceOf(const CampaignStore& store,
     Table table{.metric = summary.gate ? summary.gate->metric : VariantDependence{}.metric};
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
       // Without a drive the only question is whether there is a plan.
-      if (CountsBy(table.metric, row) && (row.driven() || table.metric == "not_success"))
+      if (CountsBy(table.metric, row) && (row.driven() || table.metric == kNotSuccess))
         table.Add(row);
     });
     out.push_back(Depend(table, variant, limit));

@@ -126,6 +126,18 @@ TEST_F(CompareVariantsTest, WhatDoesNotCountHasNoPair) {
   EXPECT_EQ(dut.failures.front().neither, 1) << "nobody failed who did not drive";
 }
 
+TEST_F(CompareVariantsTest, EqualPairsAreOnePairWhateverHadNoPlan) {
+  for (std::uint64_t episode = 0; episode < 20; ++episode) {
+    EpisodeRow b = Row("b", episode, true);
+    if (episode == 19) b.outcome = "not_planned";
+    Add({Row("a", episode, false), b});
+  }
+  const Comparison dut = Compare();
+  EXPECT_EQ(dut.n, 1);
+  EXPECT_EQ(dut.repeats, 19);
+  EXPECT_EQ(dut.failures.front().only_b, 1);
+}
+
 TEST_F(CompareVariantsTest, PairsThatAreEqualAreOnePair) {
   for (std::uint64_t episode = 0; episode < 20; ++episode)
     Add({Row("a", episode, false), Row("b", episode, true)});
