@@ -16,6 +16,7 @@
 #include "base/params.h"
 #include "base/quantity.h"
 #include "env/core/failure_text.h"
+#include "env/core/passages.h"
 #include "env/core/ramp_ends.h"
 #include "planners/risk/model_rates.h"
 #include "run/episode/make_plan.h"
@@ -140,8 +141,9 @@ class Predictor {
   // Seen from a raised or a sunk floor on which the robot starts, the others have no keys by which
   // a meeting could be rated.
   void FindOtherFloors(const HazardMap& floor, const Scenario& s) {
+    if (std::ranges::all_of(floor.hazards, IsOfTheSite)) return;  // the walk over the plan is long
     for (const DrivenOver& over : FindDrivenOver(s, plan_))
-      if (const Hazard& hazard = floor.hazards[over.hazard]; hazard.keys.empty())
+      if (const Hazard& hazard = floor.hazards[over.hazard]; !IsOfTheSite(hazard))
         unknown_.emplace(hazard.id,
                          fmt::format("the edge of {}, crossed {}", ObstaclePhrase(floor, hazard.id),
                                      CountText(over.times, "time")));
@@ -191,8 +193,8 @@ class Predictor {
     const std::span<const double> x = covariates.Of(met.at);
     for (std::size_t a = 0; a < x.size(); ++a) {
       const RateAxis& axis = kind.axes[a];
-      // A meeting that is longer or turns more counts as several (TimesMeasured). Larger things
-      // stand no more in the way of a robot that passes them.
+      // A meeting that is longer or turns more counts as several (TimesMeasured). The size of
+      // a thing hardly matters to a robot that passes it.
       if (axis.name == "over_m" || axis.name == "turn_rad" ||
           (axis.of_hazard && kind.passage == Passage::kBeside))
         continue;

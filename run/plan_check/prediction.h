@@ -49,7 +49,7 @@ struct Prediction {
   // rates do not apply (IsFarBeyond).
   struct FarBeyond {
     std::string type, axis;
-    double value = 0, lower = 0, upper = 0;  // and what was measured
+    double value = 0, lower = 0, upper = 0;  // and the measured range
     std::size_t meeting = 0;
   };
   std::optional<FarBeyond> far_beyond;
