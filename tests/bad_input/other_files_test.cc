@@ -95,7 +95,7 @@ TEST_P(OtherFile, IsNotQuoted) {
     EXPECT_EQ(dut.signal, 0) << kind;
     EXPECT_EQ((dut.out + dut.err).find(kSecret), std::string::npos) << kind << dut.out << dut.err;
     EXPECT_EQ(WhyUnprintable(dut.out + dut.err), "") << kind << ": " << dut.err;
-    if (dut.status == 0) {  // a part that is only drawn is left out
+    if (dut.status == 0) {  // a visual mesh is dropped
       EXPECT_NE(dut.out.find("mesh " + role.other + " is "), std::string::npos) << dut.out;
       continue;
     }
