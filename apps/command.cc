@@ -62,8 +62,8 @@ fs::path CampaignFolder(const std::string& out, const fs::path& scenario, const 
 }
 
 void SayDrawn(const Scenario& scenario, const Globals& globals) {
-  if (!scenario.drawn.empty())
-    globals.SayFact("Drawn", DrawnText(scenario.drawn) + "; these override the file");
+  if (!scenario.spec.drawn.empty())
+    globals.SayFact("Drawn", DrawnText(scenario.spec.drawn) + "; these override the file");
 }
 
 int ExitStatus(Outcome outcome) {

@@ -59,10 +59,11 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     for (const std::string& warning : lines) globals.Say(warning);
     if (const std::string runs = ProgramAnnounced(scenario); !runs.empty()) globals.Say(runs);
     SayDrawn(scenario, globals);
-    const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
+    const std::filesystem::path folder =
+        OutputFolder(options->out, scenario.spec.file, scenario.spec.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
     const PlanResult plan = MakePlan(scenario);
-    if (scenario.dirt && scenario.dirt->cleaning.rounds > 0 && !plan.samples.empty() &&
+    if (scenario.world.dirt && scenario.world.dirt->cleaning.rounds > 0 && !plan.samples.empty() &&
         plan.status == PlanStatus::kSuccess)
       CleanerPlan(scenario, *plan.risk);  // else its drive would be the first to try
     const std::vector<RiskOfPlan> beside =
@@ -76,7 +77,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
         globals.Say(SweptText(plan, json));
         if (!plan.message.empty()) globals.Say(plan.message);
         constexpr double kDriveLoss = 0.02;  // of coverage, against the plan (docs/plan.md)
-        if (const double asked = scenario.episode.min_coverage;
+        if (const double asked = scenario.spec.episode.min_coverage;
             asked > 0 && json["coverage"].get<double>() < asked + kDriveLoss) {
           lines.push_back(
               fmt::format("warning: success.min_coverage asks for {:g} %, but a drive "

@@ -36,11 +36,12 @@ void AddPredict(CommandLine& line, const Globals& globals, int& status) {
     const ScenarioFile file(options->scenario, overrides, globals.trust());
     const Scenario scenario = file.Read(file.episode());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
-    if (!scenario.matrix.IsNull())
+    if (!scenario.text.matrix.IsNull())
       globals.Say(
           "warning: `matrix` is passed over: this is the scenario itself (--set names what a "
           "variant changes)");
-    const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
+    const std::filesystem::path folder =
+        OutputFolder(options->out, scenario.spec.file, scenario.spec.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
     ProgressLine progress(globals);
     const Prediction prediction = Predict(file, {}, options->draws, [&](int done) {

@@ -25,9 +25,10 @@ void AddRun(CommandLine& line, const Globals& globals, int& status) {
     auto overrides = globals.Overrides();
     if (options->seed >= 0) overrides.push_back({"seed", std::to_string(options->seed)});
     Scenario scenario = ReadScenario(options->scenario, overrides, globals.trust());
-    const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
+    const std::filesystem::path folder =
+        OutputFolder(options->out, scenario.spec.file, scenario.spec.name);
     SayDrawn(scenario, globals);
-    if (!scenario.matrix.IsNull())
+    if (!scenario.text.matrix.IsNull())
       globals.Say("this is the scenario itself: `campaign` drives the variants of its matrix");
     const DriveResult result = DriveAndFilm(scenario, folder, {.video = options->video}, globals);
     globals.Result(ResultJson(scenario, result.record));

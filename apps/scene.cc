@@ -55,8 +55,8 @@ void AddScene(CommandLine& line, const Globals& globals, int&) {
     RefuseToReplace(InputsOf(s), options->out);
     RefuseToReplaceOthers(options->out);
     // The stock MuJoCo lacks the collider of ideal Mecanum wheels.
-    const Scene scene =
-        BuildScene(s.site.map, WithRollerWheels(s.robot), s.physics, s.start, WallSet::kAll);
+    const Scene scene = BuildScene(s.world.site.map, WithRollerWheels(s.world.robot),
+                                   s.world.physics, s.world.start, WallSet::kAll);
     WriteFileWhole(options->out, std::string(kMark) + SceneXml(scene));
     SayWhenInterrupted(options->out + " is written");
     globals.Say(fmt::format("{}: {} wall, {} floor and {} hazard geoms", options->out,

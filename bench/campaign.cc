@@ -52,7 +52,7 @@ Timed RunOnce(const ScenarioFile& file, std::uint64_t n, int jobs, const fs::pat
   timed.drive_s = Since(drive_begin);
   WriteSummaryFiles(store, file, run, folder);
   timed.wall_s = Since(begin);
-  const double timestep_s = file.Read().physics.timestep_s;
+  const double timestep_s = file.Read().world.physics.timestep_s;
   for (const Variant& variant : file.variants())
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
       timed.steps += row.metric(&Metrics::duration_s).value_or(0) / timestep_s;
@@ -99,10 +99,11 @@ int Main(int argc, char** argv) {
   const ScenarioFile file(scenario);
   Scenario s = file.Read();
   const PlanResult plan = MakePlan(s);
-  const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
-  const Scene whole = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
+  const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
+  const Scene whole =
+      BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start, WallSet::kAll);
   const auto steps_a_control =
-      static_cast<int>(std::lround(1 / (s.physics.timestep_s * s.episode.control_hz)));
+      static_cast<int>(std::lround(1 / (s.world.physics.timestep_s * s.spec.episode.control_hz)));
   Notes notes;
   RunEpisode(s, scene, plan, &notes);
 

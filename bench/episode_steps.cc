@@ -22,10 +22,11 @@ int Main(int argc, char** argv) {
   const int rounds = argc > 2 ? std::atoi(argv[2]) : 7;
   Scenario s = ReadScenario(file);
   const PlanResult plan = MakePlan(s);
-  const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
-  const Scene whole = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
+  const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
+  const Scene whole =
+      BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start, WallSet::kAll);
   const int steps_a_control =
-      static_cast<int>(std::lround(1 / (s.physics.timestep_s * s.episode.control_hz)));
+      static_cast<int>(std::lround(1 / (s.world.physics.timestep_s * s.spec.episode.control_hz)));
   std::vector<double> ratios;
   for (int round = 0; round < rounds; ++round) {
     Notes notes;

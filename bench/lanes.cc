@@ -97,22 +97,22 @@ struct Found {
 
 Found Drive(Scenario& s) {
   Found found;
-  s.online = std::make_unique<Timed>(std::move(s.online), found.step_s);
-  const RobotSpec& robot = s.robot.spec;
-  const HazardMap known = KnownFloor(s), truth = TrueFloor(s);
+  s.agents.online = std::make_unique<Timed>(std::move(s.agents.online), found.step_s);
+  const RobotSpec& robot = s.world.robot.spec;
+  const HazardMap known = KnownFloor(s.world), truth = TrueFloor(s.world);
   const SweepArea area =
-      ComputeSweepArea(truth, robot.clear, robot.tool, robot.step_m, s.start.p());
+      ComputeSweepArea(truth, robot.clear, robot.tool, robot.step_m, s.world.start.p());
   CoverageMeter meter(area, robot.tool);
   const auto navigator = MakeNavigator(s, {}, known);
-  Mapper mapper = *s.mapper;
+  Mapper mapper = *s.agents.mapper;
   mapper.Start(known.frame, robot, true);
   GridLidar lidar(truth, robot.step_m);
   const ClearanceField gaps = ComputeClearance(truth, robot.step_m);
-  const bool holds = HoldYaw(known, s.start, robot.clear, robot.tool).yaw_rad.has_value();
+  const bool holds = HoldYaw(known, s.world.start, robot.clear, robot.tool).yaw_rad.has_value();
 
   Observation sensed;
   Estimate estimate;
-  estimate.X_WB = s.start;
+  estimate.X_WB = s.world.start;
   std::size_t segment = 0;
   bool at_end = true;
   for (int idle = 0; idle < 1000;) {
@@ -135,7 +135,7 @@ Found Drive(Scenario& s) {
         idle = 0;
         const Vec2 p_W = estimate.X_WB.p() + way_W / way_m * gone_m;
         estimate.X_WB = {p_W.x(), p_W.y(),
-                         holds ? s.start.yaw_rad : std::atan2(way_W.y(), way_W.x())};
+                         holds ? s.world.start.yaw_rad : std::atan2(way_W.y(), way_W.x())};
       }
       found.length_m += gone_m;
       left_m -= gone_m;
@@ -145,7 +145,7 @@ Found Drive(Scenario& s) {
     if (at_end) segment = path.size() < 2 ? 0 : path.size() - 2;
   }
   found.coverage = meter.coverage();
-  for (const auto& [name, value] : s.online->figures())
+  for (const auto& [name, value] : s.agents.online->figures())
     if (name == "dead_ends") found.dead_ends = value;
   return found;
 }
@@ -167,8 +167,8 @@ void Run(const char* file) {
   fmt::print(
       "{:14} {:7} covered {:5.1f} %, way x {:.3f}, dead ends {:4.0f}, least {:3.0f} mm; step "
       "median {:.2f} ms, 99 % {:.2f}, longest {:.1f}\n",
-      s.site.map.name, s.robot_name, 100 * found.coverage, found.length_m / plan_m, found.dead_ends,
-      1000 * found.least_gap_m, ms(0.5), ms(0.99), ms(1));
+      s.world.site.map.name, s.spec.robot_name, 100 * found.coverage, found.length_m / plan_m,
+      found.dead_ends, 1000 * found.least_gap_m, ms(0.5), ms(0.99), ms(1));
 }
 
 }  // namespace

@@ -35,10 +35,11 @@ int Main(int argc, char** argv) {
   }
   Scenario s = ReadScenario(argv[1], overrides);
   const int periods = std::atoi(argv[2]);
-  s.tracker = std::make_unique<Circling>(BodyTwist{std::atof(argv[3]), 0, std::atof(argv[4])});
+  s.agents.tracker =
+      std::make_unique<Circling>(BodyTwist{std::atof(argv[3]), 0, std::atof(argv[4])});
   const PlanResult plan = MakePlan(s);
-  const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
-  SteppedEpisode episode(s, scene, plan, std::make_unique<FreeNavigator>(s.start));
+  const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
+  SteppedEpisode episode(s, scene, plan, std::make_unique<FreeNavigator>(s.world.start));
   const double begin_s = CpuSeconds();
   for (int i = 0; i < periods; ++i)
     if (const auto ended = episode.Advance()) {

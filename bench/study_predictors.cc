@@ -42,8 +42,8 @@ void DescribePlan(const ScenarioFile& file, const std::map<std::string, HazardCl
     expected.push_back(meeting.expected);
     kinds[KindOf(meeting.expected)] += meeting.probability;
   }
-  const RiskMap risk =
-      ComputeRisk(scenario.site.map, scenario.robot.spec, scenario.fmea, scenario.risk);
+  const RiskMap risk = ComputeRisk(scenario.world.site.map, scenario.world.robot.spec,
+                                   scenario.spec.fmea, scenario.spec.risk);
   plan["crf"] = MeasureRisk(risk, prediction.plan.path).cumulative_risk;
   plan["meetings"] = MeetingsOfClasses(expected, class_of_type);
   plan["complete"] = prediction.complete();
@@ -55,7 +55,7 @@ void DescribePlan(const ScenarioFile& file, const std::map<std::string, HazardCl
         prediction.survival.first[static_cast<std::size_t>(m)].value;
   plan["kinds"] = kinds;
   plan["predicted"][kModelPredictor] = 1 - none.value;
-  if (fitted != nullptr) AddOthers(*fitted, scenario.fmea, plan);
+  if (fitted != nullptr) AddOthers(*fitted, scenario.spec.fmea, plan);
 }
 
 }  // namespace floorproof

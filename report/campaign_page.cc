@@ -106,10 +106,10 @@ class Rows {
 
 // A floor that each episode draws anew has no one map.
 bool HasOneMap(const Scenario& scenario) {
-  const ConfigNode* generate = scenario.site_node.Find("generate");
+  const ConfigNode* generate = scenario.text.site.Find("generate");
   if (generate == nullptr) return true;
   if (generate->Find("seed") == nullptr) return false;
-  return std::ranges::none_of(scenario.randomise.entries, [](const auto& entry) {
+  return std::ranges::none_of(scenario.text.randomise.entries, [](const auto& entry) {
     return entry.first.starts_with("site.generate");
   });
 }
@@ -179,7 +179,7 @@ void AddMaps(const fs::path& folder, const Rows& rows, const Console& console, R
   try {
     file.emplace(folder / "scenario.resolved.yaml");
     const Scenario scenario = file->Read(std::nullopt);
-    report.title = scenario.name;
+    report.title = scenario.spec.name;
     report.subject = SubjectOf(scenario, file->variants());
   } catch (const InputError& e) {
     why = fmt::format("The map cannot be read any more: {}", e.what());
@@ -217,11 +217,11 @@ void AddMaps(const fs::path& folder, const Rows& rows, const Console& console, R
       HeatMapOptions options;
       options.failures = rows.places()[v];
       options.failures_by = "failures, by episode";
-      WriteFailurePlaces(scenario.site.map, name + " on " + scenario.site.map.name,
+      WriteFailurePlaces(scenario.world.site.map, name + " on " + scenario.world.site.map.name,
                          std::move(options), rates ? &*rates : nullptr, png);
       map.png = ReadInputFile(png, kMaxResultBytes);
-      map.data = MapData(scenario.site.map);
-      if (!scenario.randomise.IsNull())
+      map.data = MapData(scenario.world.site.map);
+      if (!scenario.text.randomise.IsNull())
         map.note = "the map is the site as written, before an episode's draws";
     } catch (const InputError& e) {
       keep(fmt::format("The map cannot be read any more: {}", e.what()));

@@ -45,7 +45,7 @@ void WriteCellPicture(const Scenario& s, const EpisodeRecord& record,
                       const std::filesystem::path& png) {
   const auto counts = CountProperties(record);
   const auto all = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
-  const bool cells = s.episode.drive == "cells";
+  const bool cells = s.spec.episode.drive == "cells";
   HeatMapOptions options;
   options.title = fmt::format("{}: J_hc {:.1f} %, J_cc {:.1f} %", PictureTitle(s),
                               100 * record.metrics.coverage, 100 * record.metrics.revisited);
@@ -65,15 +65,15 @@ void WriteCellPicture(const Scenario& s, const EpisodeRecord& record,
     }
     options.categories.push_back({label, ColourOf(property)});
   }
-  const double radius_m = s.online->params().radius_m;
+  const double radius_m = s.agents.online->params().radius_m;
   if (!record.trace.empty())
     options.rings.push_back({{record.trace.back().x_m, record.trace.back().y_m},
                              radius_m,
                              "robot and its window, " + NumberText(radius_m) + " m",
                              kWindowBlue});
   ShowDrive(record, Way::kHidden, options);
-  const HeatValues heat = CellProperties(s.site.map, record);
-  WriteHeatMap(s.site.map, &heat, options, png);
+  const HeatValues heat = CellProperties(s.world.site.map, record);
+  WriteHeatMap(s.world.site.map, &heat, options, png);
 }
 
 }  // namespace floorproof

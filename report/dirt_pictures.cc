@@ -101,7 +101,7 @@ std::string AuditText(const Scenario& s, const PlanResult& plan, const FloorAudi
   std::string text =
       fmt::format("{} of {} taken, {} dirty (more than {} particles); score {}",
                   audit.samples.size(), CountText(plan.samples.size(), "sample"),
-                  audit.gathering.dirty, s.dirt->params.dirty_above, ScoreText(audit.region));
+                  audit.gathering.dirty, s.world.dirt->params.dirty_above, ScoreText(audit.region));
   constexpr double kWhole = 0.995;
   if (const SpaceScore& region = audit.region.score; region.mean && region.represented < kWhole)
     text += fmt::format(", of {:.0f} % of the room", 100 * region.represented);
@@ -146,15 +146,15 @@ void WriteDirt(const Scenario& s, const PlanResult& plan, const FloorAudit& audi
           {place.p_W, place.reachable ? "sample not taken" : SampleSeriesOf(place)});
   }
   const HeatValues around = ScoresAround(audit);
-  WritePng(png, Beside(DrawHeatMap(s.site.map, &thousands, dirt),
-                       DrawHeatMap(s.site.map, &around, scores)));
+  WritePng(png, Beside(DrawHeatMap(s.world.site.map, &thousands, dirt),
+                       DrawHeatMap(s.world.site.map, &around, scores)));
 }
 
 void WriteTapes(const Scenario& s, const PlanResult& plan, const FloorAudit& audit,
                 const std::filesystem::path& png) {
   constexpr std::size_t kMost = 30;
   const std::size_t n = audit.samples.size(), shown = std::min(kMost, n);
-  const SamplingParams& params = s.dirt->params.sampling;
+  const SamplingParams& params = s.world.dirt->params.sampling;
   std::vector<SheetImage> tapes;
   for (std::size_t i = 0; i < shown; ++i) {
     const AuditedSample& taken = audit.samples[i * n / shown];

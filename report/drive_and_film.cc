@@ -42,7 +42,7 @@ class Witness : public EpisodeObserver {
         folder_(folder),
         options_(options),
         console_(console),
-        replay_(s.episode.control_hz, this) {}
+        replay_(s.spec.episode.control_hz, this) {}
 
   // What an interruption's line says from now on.
   void There(const std::string& what) const {
@@ -85,8 +85,8 @@ class Witness : public EpisodeObserver {
     const PlanClearance clearance = CheckClearance(s_, plan);
     if (const std::string conflicts = ConflictsLine(clearance); !conflicts.empty())
       console_.Say(conflicts + ", see `floorproof plan`");
-    const int sharp = CountSharpCorners(plan.path, s_.robot.spec);
-    if (const std::string line = SharpCornersLine(s_.robot.spec, sharp); !line.empty())
+    const int sharp = CountSharpCorners(plan.path, s_.world.robot.spec);
+    if (const std::string line = SharpCornersLine(s_.world.robot.spec, sharp); !line.empty())
       console_.Say(line);
     for (const std::string& line : CrossingLines(s_, clearance)) console_.Say(line);
   }
@@ -114,7 +114,7 @@ class Witness : public EpisodeObserver {
 
  private:
   void Begin(Recording* recording) {
-    progress_.emplace(console_, s_.robot.spec, s_.episode.control_hz, recording);
+    progress_.emplace(console_, s_.world.robot.spec, s_.spec.episode.control_hz, recording);
     begin_ = Clock::now();
   }
 

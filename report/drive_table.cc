@@ -26,14 +26,14 @@ void AddVerdict(const Scenario& s, const EpisodeRecord& record, FactTable& table
   constexpr std::size_t kShown = 9;
   const std::size_t n = record.events.size();
   std::string text(Name(record.outcome));
-  if (n == 1) text += ", " + EventText(record.events.front(), s.site.map);
+  if (n == 1) text += ", " + EventText(record.events.front(), s.world.site.map);
   if (n > 1) text += ", the robot failed " + CountText(n, "time");
   if (const std::size_t times = record.interventions.size(); times > 0)
     text += ", helped " + CountText(times, "time");
   if (!record.message.empty()) text += ": " + record.message;
   table.Add({"Verdict", {text, record.outcome == Outcome::kSuccess ? Tone::kGood : Tone::kBad}});
   for (std::size_t i = 0; n > 1 && i < std::min(n, kShown); ++i)
-    table.Add({fmt::format("Failure {}", i + 1), EventText(record.events[i], s.site.map)});
+    table.Add({fmt::format("Failure {}", i + 1), EventText(record.events[i], s.world.site.map)});
   if (n > kShown)
     table.Add(
         {"Further failures", FixedText(static_cast<double>(n - kShown), 0) + ", see result.json"});
@@ -98,7 +98,7 @@ std::string ArrivalText(const Arrival& how) {
 
 std::string Title(const Scenario& s) {
   const std::string plan =
-      s.planner_name.empty() ? s.plan_file.filename().string() : s.planner_name;
+      s.spec.planner_name.empty() ? s.spec.plan_file.filename().string() : s.spec.planner_name;
   return PictureTitle(s) + (plan.empty() ? "" : ", " + plan);
 }
 
@@ -133,7 +133,7 @@ FactTable DriveTable(const Scenario& s, const PlanResult& plan, const EpisodeRec
   FactTable table;
   table.SetTitle(Title(s));
   AddVerdict(s, record, table);
-  if (s.episode.drive == "cells")
+  if (s.spec.episode.drive == "cells")
     AddCellDrive(record, drive_s, table);
   else
     AddPhysicsDrive(record, drive_s, table);

@@ -108,9 +108,10 @@ struct DriveScript {
 
 DriveScript::DriveScript(const Scenario& s, const Scene& scene, const PlanResult& plan,
                          const EpisodeRecord& record, const Recording& recording) {
-  const HazardMap& map = s.site.map;
+  const HazardMap& map = s.world.site.map;
   if (scene.pool.num > 0)
-    whole = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
+    whole =
+        BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start, WallSet::kAll);
   film.model = whole.model ? whole.model.get() : scene.model.get();
   film.base_body = scene.base_body;
   film.recording = &recording;
@@ -119,32 +120,32 @@ DriveScript::DriveScript(const Scenario& s, const Scene& scene, const PlanResult
   film.title = PictureTitle(s);
   film.shell = ShellOf(whole.model ? whole : scene);
   film.plan = &plan.path;
-  film.senses = s.video.scan;
+  film.senses = s.spec.video.scan;
   const double w = map.frame.width * map.frame.cell_m, h = map.frame.height * map.frame.cell_m;
   Vec2 low = map.frame.X_WG.p(), high = low;
   for (const Vec2& corner : {Vec2(w, 0), Vec2(0, h), Vec2(w, h)}) {
     low = low.cwiseMin(map.frame.X_WG * corner);
     high = high.cwiseMax(map.frame.X_WG * corner);
   }
-  film.set = {low, high, s.robot.spec.circumscribed_radius_m};
+  film.set = {low, high, s.world.robot.spec.circumscribed_radius_m};
   for (const Intervention& help : record.interventions)
     film.notices.push_back({help.t_s,
                             {Banner::Tone::kWarning, "HELPED   set down by a person",
                              fmt::format("at the waypoint x {:.2f} m, y {:.2f} m;  t {:.1f} s",
                                          help.to_W.x(), help.to_W.y(), help.t_s)}});
   if (record.events.empty() || !record.interventions.empty()) film.closing = ClosingBanner(record);
-  if (s.safety) film.timeline = SafetyTimeline(s, record);
-  if (s.online) {
-    film.window_m = s.online->params().radius_m;
-    film.swept_again = SweptAgainPatches(record, s.robot.spec);
+  if (s.agents.safety) film.timeline = SafetyTimeline(s, record);
+  if (s.agents.online) {
+    film.window_m = s.agents.online->params().radius_m;
+    film.swept_again = SweptAgainPatches(record, s.world.robot.spec);
   }
 }
 
 FilmOptions OptionsOf(const Scenario& s, const std::filesystem::path& stills) {
   FilmOptions options;
-  static_cast<ReelOptions&>(options) = AsWritten(s.video, stills);
-  options.camera = s.video.camera;
-  if (s.video.quality == "draft") options.quality = RenderQuality::kDraft;
+  static_cast<ReelOptions&>(options) = AsWritten(s.spec.video, stills);
+  options.camera = s.spec.video.camera;
+  if (s.spec.video.quality == "draft") options.quality = RenderQuality::kDraft;
   return options;
 }
 
@@ -157,7 +158,7 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
   const DriveScript script(s, scene, plan, record, recording);
   FilmOptions options = OptionsOf(s, folder);
   if (!only_around.empty()) {
-    if (s.video.quality == "auto") options.quality = RenderQuality::kDraft;
+    if (s.spec.video.quality == "auto") options.quality = RenderQuality::kDraft;
     KeepToFailures(record, only_around, options);
   }
   DrawingProgress progress(console, "filming, frames");
@@ -200,19 +201,19 @@ LivePicture::LivePicture(const Scenario& s, const Scene& scene, const PlanResult
 std::string WriteCellVideo(const Scenario& s, const EpisodeRecord& record,
                            const std::filesystem::path& folder, const Console& console) {
   CellFilmScript script;
-  script.map = &s.site.map;
+  script.map = &s.world.site.map;
   script.in_reach = &record.sweepable;
   script.visits = &record.passes;
   script.known = record.known ? &*record.known : nullptr;
-  script.window_m = s.online->params().radius_m;
-  script.title = PictureTitle(s) + ", " + s.planner_name;
+  script.window_m = s.agents.online->params().radius_m;
+  script.title = PictureTitle(s) + ", " + s.spec.planner_name;
   script.closing = ClosingBanner(record);
   for (const TraceRow& row : record.trace)
     script.steps.push_back({row.t_s,
                             {row.x_m, row.y_m},
                             static_cast<double>(row.coverage),
                             static_cast<double>(row.revisited)});
-  ReelOptions options = AsWritten(s.video, folder);
+  ReelOptions options = AsWritten(s.spec.video, folder);
   DrawingProgress progress(console, "filming, frames");
   options.on_frame = [&](int done, int all) { progress.Show(done, all); };
   const std::filesystem::path mp4 = folder / "video.mp4";

@@ -36,7 +36,7 @@ void WriteKnownMap(const Scenario& s, const EpisodeRecord& record,
                    const std::filesystem::path& png) {
   const KnownMap& known = *record.known;
   const KnownAgainstTruth seen =
-      Compare(known, TrueFloor(s), s.robot.spec.step_m, 2 * known.frame.cell_m);
+      Compare(known, TrueFloor(s.world), s.world.robot.spec.step_m, 2 * known.frame.cell_m);
   HeatMapOptions options;
   options.title = fmt::format("{}: known {:.1f} %, of it wrong {:.1f} %", PictureTitle(s),
                               100 * seen.known, 100 * seen.wrong);
@@ -53,7 +53,7 @@ void WriteKnownMap(const Scenario& s, const EpisodeRecord& record,
   HeatValues heat{known.frame, Grid<float>(seen.cells.width, seen.cells.height)};
   for (std::size_t i = 0; i < heat.values.cells.size(); ++i)
     heat.values.cells[i] = static_cast<float>(seen.cells.cells[i]);
-  HazardMap bare = s.site.map;  // the walls shown are those that were sensed
+  HazardMap bare = s.world.site.map;  // the walls shown are those that were sensed
   std::ranges::fill(bare.occupancy.cells, CellState::kFree);
   WriteHeatMap(bare, &heat, options, png);
 }
@@ -68,7 +68,7 @@ void WriteVisits(const Scenario& s, const EpisodeRecord& record, const std::file
   ShowDrive(record, Way::kHidden, options);
   const HeatValues heat =
       OverSweepable(record, [](std::uint8_t passes) { return static_cast<float>(passes); });
-  WriteHeatMap(s.site.map, &heat, options, png);
+  WriteHeatMap(s.world.site.map, &heat, options, png);
 }
 
 void WriteCoverage(const Scenario& s, const EpisodeRecord& record,
@@ -81,12 +81,14 @@ void WriteCoverage(const Scenario& s, const EpisodeRecord& record,
   ShowDrive(record, Way::kHidden, options);
   const HeatValues heat =
       OverSweepable(record, [](std::uint8_t passes) { return passes > 0 ? 1.0f : 0.0f; });
-  WriteHeatMap(s.site.map, &heat, options, png);
+  WriteHeatMap(s.world.site.map, &heat, options, png);
 }
 
 }  // namespace
 
-std::string PictureTitle(const Scenario& s) { return s.robot.spec.name + " on " + s.site.map.name; }
+std::string PictureTitle(const Scenario& s) {
+  return s.world.robot.spec.name + " on " + s.world.site.map.name;
+}
 
 void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
                    const std::filesystem::path& folder, const Console& console) {
@@ -98,17 +100,18 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
         HeatMapOptions options;
         options.plan = &plan.path;
         ShowDrive(record, Way::kShown, options);
-        WriteFailurePlaces(s.site.map, PictureTitle(s), std::move(options), nullptr,
+        WriteFailurePlaces(s.world.site.map, PictureTitle(s), std::move(options), nullptr,
                            folder / "heatmap_failures.png");
       },
       [&] {
         if (record.known) WriteKnownMap(s, record, folder / "heatmap_known.png");
       },
       [&] {
-        if (s.online) WriteCellPicture(s, record, folder / "heatmap_cells.png");
+        if (s.agents.online) WriteCellPicture(s, record, folder / "heatmap_cells.png");
       },
       [&] {
-        if (s.online) WriteCoveragePlot(PictureTitle(s), record, folder / "plot_coverage.png");
+        if (s.agents.online)
+          WriteCoveragePlot(PictureTitle(s), record, folder / "plot_coverage.png");
       },
       [&] {
         if (record.audit) WriteDirt(s, plan, *record.audit, folder / "heatmap_dirt.png");
@@ -118,11 +121,11 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
           WriteTapes(s, plan, *record.audit, folder / "plot_tapes.png");
       },
       [&] {
-        if (s.safety && record.steps > 0)
+        if (s.agents.safety && record.steps > 0)
           WriteSafetyTimeline(s, record, folder / "plot_safety.png");
       },
       [&] {  // an ideal robot has none
-        if (s.episode.drive == "physics")
+        if (s.spec.episode.drive == "physics")
           WriteErrorPlot(PictureTitle(s), record, folder / "plot_errors.png");
       }};
   DrawingProgress progress(console, "drawing maps");

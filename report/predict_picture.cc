@@ -66,8 +66,8 @@ void WritePredictPicture(const Scenario& s, const Prediction& prediction,
                                 fmt::format("{}, {}: {}", met.hazard, Name(met.passage),
                                             PercentText(ranked[i]->probability))});
   }
-  const HeatValues heat = Around(s.site.map, prediction);
-  WriteHeatMap(s.site.map, &heat, options, png);
+  const HeatValues heat = Around(s.world.site.map, prediction);
+  WriteHeatMap(s.world.site.map, &heat, options, png);
 }
 
 }  // namespace floorproof

@@ -46,7 +46,7 @@ void WritePlanOverClasses(const Scenario& s, const PlanResult& plan, const Episo
   options.plan = &plan.path;
   if (record != nullptr) ShowDrive(*record, Way::kShown, options);
   if (!AsksForRisk(s)) {  // whose cells are as wide as the robot, and no hazards
-    WriteHeatMap(s.site.map, nullptr, options, png);
+    WriteHeatMap(s.world.site.map, nullptr, options, png);
     return;
   }
   for (const auto c : {HazardClass::kBlindObject, HazardClass::kGlass, HazardClass::kLevelChange,
@@ -57,7 +57,7 @@ void WritePlanOverClasses(const Scenario& s, const PlanResult& plan, const Episo
   });
   if (std::ranges::any_of(classes.values.cells, [](float v) { return std::isfinite(v); }))
     options.quantity = "cells with hazards";
-  WriteHeatMap(s.site.map, &classes, options, png);
+  WriteHeatMap(s.world.site.map, &classes, options, png);
 }
 
 void WriteRiskMap(const Scenario& s, const PlanResult& plan, const EpisodeRecord* record,
@@ -72,7 +72,7 @@ void WriteRiskMap(const Scenario& s, const PlanResult& plan, const EpisodeRecord
   const HeatValues rf = OnRiskCells(*plan.risk, [&](std::size_t i, const RiskCell& cell) {
     return cell.outer_wall() ? HeatValues::kNone : static_cast<float>(plan.risk->rf.cells[i]);
   });
-  WriteHeatMap(s.site.map, &rf, options, png);
+  WriteHeatMap(s.world.site.map, &rf, options, png);
 }
 
 void WritePlanVisits(const Scenario& s, const PlanResult& plan, const RiskOfPath& risk,
@@ -91,7 +91,7 @@ void WritePlanVisits(const Scenario& s, const PlanResult& plan, const RiskOfPath
     const int n = risk.visits_of.cells[i];
     return cell.solid && n == 0 ? HeatValues::kNone : static_cast<float>(n);
   });
-  WriteHeatMap(s.site.map, &visits, options, png);
+  WriteHeatMap(s.world.site.map, &visits, options, png);
 }
 
 std::string Figures(const RiskOfPath& risk) {
@@ -130,7 +130,7 @@ bool SameFloor(const RiskOfPath& a, const RiskOfPath& b) {
 }  // namespace
 
 RiskOfPlan MeasurePlan(const Scenario& s, const PlanResult& plan) {
-  return {s.planner_name.empty() ? s.plan_file.filename().string() : s.planner_name,
+  return {s.spec.planner_name.empty() ? s.spec.plan_file.filename().string() : s.spec.planner_name,
           MeasureRisk(*plan.risk, plan.path)};
 }
 
@@ -145,7 +145,7 @@ std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
     if (plan.status != PlanStatus::kSuccess)
       throw InputError({file, 0}, "", "", "has no plan: " + plan.message);
     plans.push_back(MeasurePlan(scenario, plan));
-    if (plans.back().label == first.label) plans.back().label += " of " + scenario.name;
+    if (plans.back().label == first.label) plans.back().label += " of " + scenario.spec.name;
     if (!SameFloor(first.risk, plans.back().risk))
       throw InputError(
           {file, 0}, "", "",
@@ -159,7 +159,7 @@ void WritePlanPictures(const Scenario& s, const PlanResult& plan,
                        const EpisodeRecord* record) {
   WritePlanOverClasses(s, plan, record, folder / "heatmap_plan.png");
   if (!plan.samples.empty())
-    WriteSamples(PictureTitle(s), s.site.map, plan, folder / "heatmap_samples.png");
+    WriteSamples(PictureTitle(s), s.world.site.map, plan, folder / "heatmap_samples.png");
   if (!plan.convergence_m.empty())
     WriteConvergence(PictureTitle(s), plan, folder / "plot_convergence.png");
   if (!AsksForRisk(s) && beside.empty()) return;

@@ -35,10 +35,10 @@ RunRecord::RunRecord(const fs::path& folder)
   settings_ = ReadPlainFile(settings, kMaxResultBytes);
   try {
     const Scenario scenario = ReadScenario(settings, {});
-    map_ = scenario.site.map;
+    map_ = scenario.world.site.map;
     subject_ = SubjectOf(scenario, {});
-    estimates_ = scenario.estimator_name != "truth";
-    if (scenario.safety) mission_ = scenario.safety->mission.nodes[0].name;
+    estimates_ = scenario.spec.estimator_name != "truth";
+    if (scenario.agents.safety) mission_ = scenario.agents.safety->mission.nodes[0].name;
   } catch (const InputError& e) {
     why_no_map_ = e.what();
   }

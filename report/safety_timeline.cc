@@ -105,7 +105,7 @@ Timeline SafetyTimeline(const Scenario& s, const EpisodeRecord& record) {
   timeline.notes = {fmt::format("{} after {}{}", Words(Name(record.outcome)), TimeText(end_s),
                                 record.message.empty() ? "" : ": " + record.message)};
   timeline.end_s = end_s;
-  for (const ScheduledFault& fault : s.faults)
+  for (const ScheduledFault& fault : s.world.faults)
     timeline.rows.push_back({"broken: " + NameOf(fault), Broken(fault, end_s), true});
   for (const RaisedAlarm& alarm : record.alarms) {
     const std::string name = "alarm: " + Words(alarm.monitor);
@@ -113,7 +113,7 @@ Timeline SafetyTimeline(const Scenario& s, const EpisodeRecord& record) {
     if (row == timeline.rows.end()) row = timeline.rows.insert(row, {name, {}, false});
     row->spans.push_back({alarm.t_s, alarm.until_s.value_or(end_s), kPurple, alarm.wheel});
   }
-  const std::string& mission = s.safety->mission.nodes[0].name;
+  const std::string& mission = s.agents.safety->mission.nodes[0].name;
   std::vector<std::pair<double, DecisionState>> machine = {{0, DecisionState::kNormal}};
   std::vector<std::pair<double, SafetyLevel>> level = {{0, SafetyLevel::kHigh}};
   TimelineCurve curve;
@@ -132,7 +132,7 @@ Timeline SafetyTimeline(const Scenario& s, const EpisodeRecord& record) {
     adds_up |= row.sum > row.safety_state;
     curve.most = std::max({curve.most, row.safety_state, row.sum});
   }
-  const LevelLimits& limits = s.safety->mission.levels;
+  const LevelLimits& limits = s.agents.safety->mission.levels;
   curve.levels = {{limits.high, ""},
                   {limits.medium, "weak above"},
                   {limits.weak, "serious above"},

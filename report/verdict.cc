@@ -27,10 +27,10 @@ bool Differ(const std::vector<Variant>& variants, std::initializer_list<std::str
 }
 
 std::string PlanOf(const Scenario& s) {
-  if (!s.planner_name.empty()) return s.planner_name + " plan";
-  if (!s.mission_file.empty()) return "mission " + s.mission_file.filename().string();
-  if (s.plan_command) return "plan by a program";
-  return "plan " + s.plan_file.filename().string();
+  if (!s.spec.planner_name.empty()) return s.spec.planner_name + " plan";
+  if (!s.spec.mission_file.empty()) return "mission " + s.spec.mission_file.filename().string();
+  if (s.spec.plan_command) return "plan by a program";
+  return "plan " + s.spec.plan_file.filename().string();
 }
 
 // The rate that is judged. None: no episode counts.
@@ -128,10 +128,10 @@ std::string SubjectOf(const Scenario& scenario, const std::vector<Variant>& vari
   const auto add = [&](const std::string& part) {
     if (!part.empty()) subject += (subject.empty() ? "" : ", ") + part;
   };
-  if (!Differ(variants, {"robot", "robot.model"})) add(scenario.robot.spec.name);
+  if (!Differ(variants, {"robot", "robot.model"})) add(scenario.world.robot.spec.name);
   if (!Differ(variants, {"plan", "plan.planner", "plan.file", "plan.command", "mission"}))
     add(PlanOf(scenario));
-  if (!Differ(variants, {"site"})) add(scenario.site.map.name);
+  if (!Differ(variants, {"site"})) add(scenario.world.site.map.name);
   return subject;
 }
 

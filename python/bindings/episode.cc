@@ -48,7 +48,8 @@ class Observer final : public EpisodeObserver {
   void OnScene(const Scene& scene) override {
     if (!record_) return;
     recording_.emplace(static_cast<int>(scene.model->nq));
-    recorder_.emplace(kQuiet, scenario_.robot.spec, scenario_.episode.control_hz, &*recording_);
+    recorder_.emplace(kQuiet, scenario_.world.robot.spec, scenario_.spec.episode.control_hz,
+                      &*recording_);
   }
 
   bool OnControl(const EpisodeView& now) override {
@@ -92,19 +93,20 @@ class Observer final : public EpisodeObserver {
 void RequireOwn(const Scenario& s, const Planned& planned) {
   const Scenario& of = *planned.scenario;
   const auto refuse = [&](const std::string& what) {
-    throw InputError({s.file.string(), 0}, "plan", "", "is of another scenario: its " + what);
+    throw InputError({s.spec.file.string(), 0}, "plan", "", "is of another scenario: its " + what);
   };
-  const GridFrame &a = s.site.map.frame, &b = of.site.map.frame;
+  const GridFrame &a = s.world.site.map.frame, &b = of.world.site.map.frame;
   if (a.width != b.width || a.height != b.height || a.cell_m != b.cell_m ||
       a.X_WG.x_m != b.X_WG.x_m || a.X_WG.y_m != b.X_WG.y_m || a.X_WG.yaw_rad != b.X_WG.yaw_rad)
     refuse("map lies elsewhere");
-  if (s.robot_file != of.robot_file) refuse("robot is " + of.robot_name + ", not " + s.robot_name);
-  if (s.episode.drive != of.episode.drive)
-    refuse("drive is " + of.episode.drive + ", not " + s.episode.drive);
-  if (planned.plan.status == PlanStatus::kOnline && s.planner_name != of.planner_name)
-    refuse("planner, " + of.planner_name + ", plans on the way");
-  if (s.online && planned.plan.status != PlanStatus::kOnline)
-    refuse("plan was made beforehand, and " + s.planner_name + " plans on the way");
+  if (s.spec.robot_file != of.spec.robot_file)
+    refuse("robot is " + of.spec.robot_name + ", not " + s.spec.robot_name);
+  if (s.spec.episode.drive != of.spec.episode.drive)
+    refuse("drive is " + of.spec.episode.drive + ", not " + s.spec.episode.drive);
+  if (planned.plan.status == PlanStatus::kOnline && s.spec.planner_name != of.spec.planner_name)
+    refuse("planner, " + of.spec.planner_name + ", plans on the way");
+  if (s.agents.online && planned.plan.status != PlanStatus::kOnline)
+    refuse("plan was made beforehand, and " + s.spec.planner_name + " plans on the way");
 }
 
 // With `planned`, that plan is driven; else one is made.
@@ -160,7 +162,7 @@ nb::object Column(const Driven& d, const TraceColumn& column) {
   if (const auto* text = std::get_if<TraceColumn::Text>(&column.member)) {
     nb::list out;
     for (const TraceRow& row : trace) {
-      const std::string_view word = (*text)(row, d.scenario->robot.spec);
+      const std::string_view word = (*text)(row, d.scenario->world.robot.spec);
       out.append(nb::str(word.data(), word.size()));
     }
     return out;

@@ -10,8 +10,8 @@ namespace floorproof {
 namespace {
 
 SweepArea KnownArea(const Scenario& s) {
-  const RobotSpec& robot = s.robot.spec;
-  return ComputeSweepArea(KnownFloor(s), robot, robot.clear, robot.tool, s.start);
+  const RobotSpec& robot = s.world.robot.spec;
+  return ComputeSweepArea(KnownFloor(s.world), robot, robot.clear, robot.tool, s.world.start);
 }
 
 enum : std::uint8_t { kObstacle = 1, kSweepable = 2 };
@@ -84,9 +84,9 @@ LocalMap::LocalMap(const Scenario& s, int cells, double cell_m)
     : cells_(Checked(cells, cell_m)),
       cell_m_(cell_m),
       area_(KnownArea(s)),
-      floor_(WhatIsKnown(ObstacleMask(KnownFloor(s), s.robot.spec.step_m, area_.frame),
+      floor_(WhatIsKnown(ObstacleMask(KnownFloor(s.world), s.world.robot.spec.step_m, area_.frame),
                          area_.sweepable)),
-      swept_(area_, s.robot.spec.tool),
+      swept_(area_, s.world.robot.spec.tool),
       values_(3 * static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells)) {}
 
 void LocalMap::Look(const Pose2& X_WB, const KnownMap* drawn) {

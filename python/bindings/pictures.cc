@@ -43,9 +43,10 @@ nb::list Frames(const Driven& d, const std::vector<double>& t_s, int width, int 
 nb::ndarray<nb::numpy, std::uint8_t> StartFrame(const Scenario& s, int width, int height,
                                                 const std::string& camera) {
   return ImageArray(DrawAlone([&] {
-    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
+    const Scene scene =
+        BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start, WallSet::kAll);
     Recording recording(static_cast<int>(scene.model->nq));
-    recording.Add(0, scene.model->qpos0, {s.start.x_m, s.start.y_m, 0}, 0, -1);
+    recording.Add(0, scene.model->qpos0, {s.world.start.x_m, s.world.start.y_m, 0}, 0, -1);
     const std::array at_s = {0.0};
     return DrivePictures(s, scene, {}, {}, recording, at_s, width, height, camera).front();
   }));

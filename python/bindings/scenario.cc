@@ -87,7 +87,7 @@ nb::dict ReadSiteAlone(const fs::path& file, const std::optional<std::string>& t
   return SiteDict(ReadSite(site, file.parent_path(), files).map);
 }
 
-std::vector<std::string> SensorsOf(const Scenario& s) { return SensorNames(s.sensors); }
+std::vector<std::string> SensorsOf(const Scenario& s) { return SensorNames(s.agents.sensors); }
 
 // --- plans ---
 
@@ -149,19 +149,20 @@ void BindScenario(nb::module_& m) {
       .def("predict", &PredictionText, "variant"_a.none(), "draws"_a);
 
   nb::class_<Scenario>(m, "Scenario")
-      .def_ro("name", &Scenario::name)
-      .def_ro("robot_name", &Scenario::robot_name)
-      .def_ro("planner", &Scenario::planner_name)
-      .def_ro("tracker", &Scenario::tracker_name)
-      .def_prop_ro("start", [](const Scenario& s) { return PoseTuple(s.start); })
-      .def_prop_ro("control_hz", [](const Scenario& s) { return s.episode.control_hz; })
-      .def_prop_ro("seed", [](const Scenario& s) { return s.episode.seed; })
-      .def_prop_ro("min_coverage", [](const Scenario& s) { return s.episode.min_coverage; })
-      .def_prop_ro("site",
-                   [](const Scenario& s) { return SiteDict(s.site.map, s.robot.spec.step_m); })
-      .def_prop_ro("robot", [](const Scenario& s) { return RobotDict(s.robot.spec); })
+      .def_prop_ro("name", [](const Scenario& s) { return s.spec.name; })
+      .def_prop_ro("robot_name", [](const Scenario& s) { return s.spec.robot_name; })
+      .def_prop_ro("planner", [](const Scenario& s) { return s.spec.planner_name; })
+      .def_prop_ro("tracker", [](const Scenario& s) { return s.spec.tracker_name; })
+      .def_prop_ro("start", [](const Scenario& s) { return PoseTuple(s.world.start); })
+      .def_prop_ro("control_hz", [](const Scenario& s) { return s.spec.episode.control_hz; })
+      .def_prop_ro("seed", [](const Scenario& s) { return s.spec.episode.seed; })
+      .def_prop_ro("min_coverage", [](const Scenario& s) { return s.spec.episode.min_coverage; })
+      .def_prop_ro(
+          "site",
+          [](const Scenario& s) { return SiteDict(s.world.site.map, s.world.robot.spec.step_m); })
+      .def_prop_ro("robot", [](const Scenario& s) { return RobotDict(s.world.robot.spec); })
       .def_prop_ro("sensors", &SensorsOf)
-      .def_prop_ro("drawn", [](const Scenario& s) { return DrawnJson(s.drawn).dump(); })
+      .def_prop_ro("drawn", [](const Scenario& s) { return DrawnJson(s.spec.drawn).dump(); })
       .def("warnings", [](const Scenario& s) { return Warnings(s); })
       .def(
           "resolved",

@@ -17,9 +17,9 @@ const char* ActionOf(const SpaceBounds& b) {
 }  // namespace
 
 SpaceBounds SpaceBoundsOf(const Scenario& s, const LidarScan& scan) {
-  const RobotSpec& robot = s.robot.spec;
+  const RobotSpec& robot = s.world.robot.spec;
   SpaceBounds b;
-  b.robot = s.robot_name;
+  b.robot = s.spec.robot_name;
   const std::unique_ptr<Drive> drive = MakePlugin(Drives(), robot.drive, "drive");
   drive->Configure(robot);
   b.holonomic = drive->holonomic();
@@ -32,10 +32,10 @@ SpaceBounds SpaceBoundsOf(const Scenario& s, const LidarScan& scan) {
 
   b.beams = scan.range_m.size();
   if (b.beams == 0)
-    throw InputError({s.file.string(), 0}, "sensors.lidar", "", "is missing: it is observed");
+    throw InputError({s.spec.file.string(), 0}, "sensors.lidar", "", "is missing: it is observed");
   b.lidar_m = static_cast<float>(scan.most_m);
 
-  const GridFrame& frame = s.site.map.frame;
+  const GridFrame& frame = s.world.site.map.frame;
   const double w_m = frame.width * frame.cell_m, h_m = frame.height * frame.cell_m;
   Vec2 low_W = frame.X_WG.p(), high_W = low_W;
   for (const Vec2& corner : {Vec2(w_m, 0), Vec2(0, h_m), Vec2(w_m, h_m)}) {
@@ -66,12 +66,12 @@ std::string SpaceBounds::Lacks(const SpaceBounds& own) const {
 
 void RequireSameShape(const Scenario& s, const SpaceBounds& own, const SpaceBounds& spaces) {
   if (own.holonomic != spaces.holonomic)
-    throw InputError({s.file.string(), 0}, "robot", own.robot,
+    throw InputError({s.spec.file.string(), 0}, "robot", own.robot,
                      std::string("takes ") + ActionOf(own) + ", but the action space is " +
                          spaces.robot + "'s: " + ActionOf(spaces) +
                          "; an environment of its own can drive it");
   if (own.beams != spaces.beams)
-    throw InputError({s.file.string(), 0}, "sensors.lidar.beams", std::to_string(own.beams),
+    throw InputError({s.spec.file.string(), 0}, "sensors.lidar.beams", std::to_string(own.beams),
                      "must be " + std::to_string(spaces.beams) +
                          ", as in the observation space: all episodes of an environment have as "
                          "many");

@@ -44,14 +44,14 @@ class Commanded final : public TwistTracker {
 PlanResult NoPlan(const Scenario& s) {
   PlanResult plan;
   Waypoint start;
-  start.p_W = s.start.p();
+  start.p_W = s.world.start.p();
   plan.path = {start};
   plan.status = PlanStatus::kSuccess;
-  plan.clear = s.robot.spec.clear;
-  plan.tool = s.robot.spec.tool;
-  plan.tool_width_m = s.robot.spec.tool_width_m;
-  plan.risk =
-      std::make_shared<const RiskMap>(ComputeRisk(KnownFloor(s), s.robot.spec, s.fmea, s.risk));
+  plan.clear = s.world.robot.spec.clear;
+  plan.tool = s.world.robot.spec.tool;
+  plan.tool_width_m = s.world.robot.spec.tool_width_m;
+  plan.risk = std::make_shared<const RiskMap>(
+      ComputeRisk(KnownFloor(s.world), s.world.robot.spec, s.spec.fmea, s.spec.risk));
   return plan;
 }
 
@@ -184,31 +184,32 @@ class Stepped {
   void Begin(const PlanResult* plan, const Outlook& outlook, bool record,
              const SpaceBounds* spaces) {
     Scenario& s = *driven_->scenario;
-    if (s.episode.drive != "physics")
-      throw InputError({s.file.string(), 0}, "drive", s.episode.drive,
+    if (s.spec.episode.drive != "physics")
+      throw InputError({s.spec.file.string(), 0}, "drive", s.spec.episode.drive,
                        "must be physics where the robot is commanded step by step");
     told_.emplace(s, outlook);
     auto tracker = std::make_unique<Commanded>(plan == nullptr);
     tracker_ = tracker.get();
-    s.tracker = std::move(tracker);
+    s.agents.tracker = std::move(tracker);
     std::unique_ptr<Navigator> navigator;
     if (plan != nullptr) {
       driven_->plan = *plan;
       if (plan->status != PlanStatus::kSuccess)
-        throw InputError({s.file.string(), 0}, "plan", s.planner_name,
+        throw InputError({s.spec.file.string(), 0}, "plan", s.spec.planner_name,
                          "gives no plan to follow: " + plan->message);
-      if (FirstFold(plan->path, s.robot.spec) != nullptr)
-        throw InputError({s.file.string(), 0}, "plan", s.planner_name,
+      if (FirstFold(plan->path, s.world.robot.spec) != nullptr)
+        throw InputError({s.spec.file.string(), 0}, "plan", s.spec.planner_name,
                          "folds the robot, which a twist cannot: reference=None drives without it");
     } else {
       GoFreely(s);
       driven_->plan = NoPlan(s);
-      navigator = std::make_unique<FreeNavigator>(s.start);
+      navigator = std::make_unique<FreeNavigator>(s.world.start);
     }
-    driven_->scene.emplace(BuildScene(s.site.map, s.robot, s.physics, s.start));
+    driven_->scene.emplace(
+        BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start));
     if (record) {
       driven_->recording.emplace(static_cast<int>(driven_->scene->model->nq));
-      recorder_.emplace(s.robot.spec, s.episode.control_hz, *driven_->recording);
+      recorder_.emplace(s.world.robot.spec, s.spec.episode.control_hz, *driven_->recording);
     }
     episode_ =
         std::make_unique<SteppedEpisode>(s, *driven_->scene, driven_->plan, std::move(navigator));
@@ -220,12 +221,13 @@ class Stepped {
   // Where nothing is planned, enough coverage is the end, and the time is what three sweeps of the
   // floor take, and a minute, unless the scenario says otherwise.
   void GoFreely(Scenario& s) const {
-    const RobotSpec& robot = s.robot.spec;
-    s.online.reset();
-    if (!s.episode.stop_at_coverage)
-      s.episode.stop_at_coverage = s.episode.min_coverage > 0 ? s.episode.min_coverage : 1;
-    if (!s.episode.time_limit_s)
-      s.episode.time_limit_s =
+    const RobotSpec& robot = s.world.robot.spec;
+    s.agents.online.reset();
+    if (!s.spec.episode.stop_at_coverage)
+      s.spec.episode.stop_at_coverage =
+          s.spec.episode.min_coverage > 0 ? s.spec.episode.min_coverage : 1;
+    if (!s.spec.episode.time_limit_s)
+      s.spec.episode.time_limit_s =
           60 + 3 * told_->local.sweepable_m2() / (robot.tool_width_m * robot.cruise_mps);
   }
 

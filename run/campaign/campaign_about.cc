@@ -50,7 +50,7 @@ CampaignAbout DescribeCampaign(const ScenarioFile& file) {
   // All files that an episode may read, those that only variants or draws name too.
   for (const Variant& variant : file.variants()) file.Read(std::nullopt, variant);
   file.CheckDraws();
-  const fs::path folder = base.file.parent_path();  // shards are driven anywhere
+  const fs::path folder = base.spec.file.parent_path();  // shards are driven anywhere
   ConfigNode resolved = ParseYaml(ResolvedScenario(base, folder, file.files().All()), "scenario");
   if (ConfigNode* files = resolved.Find("files"))  // in whatever order they were read
     std::ranges::sort(files->entries,

@@ -134,8 +134,9 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
     for (const std::string& warning : Warnings(base)) observer->OnWarning(warning);
   const CampaignAbout about = DescribeCampaign(file);
   // Refused before there is a folder.
-  if (request.episodes > 1) CheckChance(file, base.gate, observer);  // no number would mend that
-  const auto gate = CampaignGate::Read(base.gate, request.episodes, file.drives());
+  if (request.episodes > 1)
+    CheckChance(file, base.text.gate, observer);  // no number would mend that
+  const auto gate = CampaignGate::Read(base.text.gate, request.episodes, file.drives());
   SayPrograms(file, observer);
   WarnOfErrors(file, request.episodes, observer);
 

@@ -65,7 +65,7 @@ std::string EpisodeMaker::Answer(Job job) {
 EpisodeRow EpisodeMaker::Drive(const Variant& variant, Scenario& s) {
   const Planned& planned = Plan(variant, s);
   std::optional<Scene> scene;
-  ReplayObserver replay(s.episode.control_hz, nullptr);
+  ReplayObserver replay(s.spec.episode.control_hz, nullptr);
   const EpisodeRecord record = ExecutePlan(s, planned.plan, scene, replays_ ? &replay : nullptr);
   EpisodeRow row = MakeRow(variant.name, s, WithFigures(planned.json, record), record);
   row.made = planned.made;

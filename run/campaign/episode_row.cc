@@ -33,14 +33,14 @@ EpisodeRow MakeRow(const std::string& variant, const Scenario& s, const std::str
                    const EpisodeRecord& record) {
   EpisodeRow row;
   row.variant = variant;
-  row.episode = s.episode_id;
+  row.episode = s.spec.episode_id;
   row.outcome = Name(record.outcome);
   row.message = record.message;
   for (const Event& event : record.events) ++row.events_of[static_cast<std::size_t>(event.mode)];
   if (record.steps > 0)
     for (std::size_t i = 0; i < kMetrics.size(); ++i)
       row.metrics[i] = kMetrics[i].Of(record.metrics);
-  row.drawn = DrawnJson(s.drawn).dump();
+  row.drawn = DrawnJson(s.spec.drawn).dump();
   row.plan = plan;
   row.events = EventsJson(record.events).dump();
   row.timeout = TimeoutJson(record.timeout).dump();

@@ -55,7 +55,7 @@ std::string ShapeChange(const Path& path, const std::string& shape) {
 
 std::uint32_t ProgramSeed(const Scenario& s, const PlanCommand& program) {
   if (program.uses_seed) return static_cast<std::uint32_t>(EpisodeStream(s, "plan").Next() >> 32);
-  return static_cast<std::uint32_t>(s.episode.seed);
+  return static_cast<std::uint32_t>(s.spec.episode.seed);
 }
 
 ProgramAnswer AskProgram(const Scenario& s, const PlanCommand& program,
@@ -85,7 +85,7 @@ ProgramAnswer AskProgram(const Scenario& s, const PlanCommand& program,
   } catch (const InputError& e) {
     return failed(std::string("gave a plan that cannot be driven: ") + e.what());
   }
-  const std::string& shape = s.robot_changes.shape;
+  const std::string& shape = s.spec.robot_changes.shape;
   if (const std::string other = ShapeChange(answer.path, shape); !other.empty())
     return failed("gave a plan that changes the robot's shape (" + other +
                   "), which a file's plan alone can: save it, and name it by plan.file");

@@ -25,16 +25,18 @@ class CellDrive {
   CellDrive(Scenario& s, Grid<std::uint8_t> blocked, Cell start, EpisodeObserver* observer)
       : s_(s),
         observer_(observer),
-        world_(s.site.map.frame, std::move(blocked), start, s.online->params().radius_m),
-        known_(s.site.map.frame),
-        limit_s_(OnlineLimit_s(s.episode)) {
+        world_(s.world.site.map.frame, std::move(blocked), start,
+               s.agents.online->params().radius_m),
+        known_(s.world.site.map.frame),
+        limit_s_(OnlineLimit_s(s.spec.episode)) {
     known_.changed.emplace();
-    sample_.yaw_rad = s.start.yaw_rad;
+    sample_.yaw_rad = s.world.start.yaw_rad;
     Look();
   }
 
   EpisodeRecord Run() {
-    s_.online->Start({world_.frame(), estimate_.X_WB, {}, {}, world_.frame().cell_m, PlanSeed(s_)});
+    s_.agents.online->Start(
+        {world_.frame(), estimate_.X_WB, {}, {}, world_.frame().cell_m, PlanSeed(s_)});
     std::optional<Outcome> ended;
     for (Trace(); !ended;) ended = Period();
     return Finish(*ended);
@@ -43,14 +45,15 @@ class CellDrive {
  private:
   // From one target to the next.
   std::optional<Outcome> Period() {
-    if (const auto stop = s_.episode.stop_at_coverage; stop && world_.coverage() >= *stop)
+    if (const auto stop = s_.spec.episode.stop_at_coverage; stop && world_.coverage() >= *stop)
       return Outcome::kSuccess;
     if (sample_.t_s >= limit_s_) return Outcome::kTimeout;
     if (observer_ != nullptr && world_.moves() % kLookEvery == 0 &&
         !observer_->OnControl({sample_, sensed_, estimate_, nullptr, world_.coverage(), 0}))
       return Outcome::kInterrupted;
     world_.Sense(known_);
-    const OnlineStep next = s_.online->Next({known_, *known_.changed, estimate_, bumps_ > 0});
+    const OnlineStep next =
+        s_.agents.online->Next({known_, *known_.changed, estimate_, bumps_ > 0});
     known_.changed->clear();
     if (next.kind == OnlineStep::Kind::kTarget)
       return DriveTo(world_.frame().ToCell(next.target_W));
@@ -69,7 +72,7 @@ class CellDrive {
     bumps_ = world_.here() == to && n > 0 ? 0 : bumps_ + 1;
     if (bumps_ < kMostBumps) return std::nullopt;
     const Vec2 p_W = world_.frame().Center(to);
-    record_.message = fmt::format("{} goes for what it cannot reach, at {}", s_.planner_name,
+    record_.message = fmt::format("{} goes for what it cannot reach, at {}", s_.spec.planner_name,
                                   PlaceText(p_W.x(), p_W.y()));
     return Outcome::kError;
   }
@@ -82,7 +85,8 @@ class CellDrive {
     turns_ += world_.moves() > 1 && std::abs(WrapAngle(yaw_rad - sample_.yaw_rad)) > 0.1;
     sample_.yaw_rad = yaw_rad;
     length_m_ += way_W.norm();
-    sample_.t_s = length_m_ / s_.online->params().speed_mps.value_or(s_.robot.spec.cruise_mps);
+    sample_.t_s =
+        length_m_ / s_.agents.online->params().speed_mps.value_or(s_.world.robot.spec.cruise_mps);
     Look();
     Trace();
     return true;
@@ -131,9 +135,9 @@ class CellDrive {
     record_.sweepable = world_.reachable();
     known_.changed.reset();
     record_.known = std::move(known_);
-    record_.figures = s_.online->figures();
+    record_.figures = s_.agents.online->figures();
     record_.outcome = ended;
-    record_.RequireCoverage(s_.episode.min_coverage);
+    record_.RequireCoverage(s_.spec.episode.min_coverage);
     if (ended == Outcome::kTimeout) record_.timeout = Timeout{sample_.t_s, sample_.X_WB(), ""};
     return std::move(record_);
   }
@@ -154,9 +158,9 @@ class CellDrive {
 }  // namespace
 
 EpisodeRecord DriveCells(Scenario& s, EpisodeObserver* observer) {
-  const GridFrame& frame = s.site.map.frame;
-  Grid<std::uint8_t> blocked = ObstacleMask(TrueFloor(s), s.robot.spec.step_m, frame);
-  const Cell start = frame.ToCell(s.start.p());
+  const GridFrame& frame = s.world.site.map.frame;
+  Grid<std::uint8_t> blocked = ObstacleMask(TrueFloor(s.world), s.world.robot.spec.step_m, frame);
+  const Cell start = frame.ToCell(s.world.start.p());
   if (blocked(start)) {
     EpisodeRecord record;
     record.outcome = Outcome::kNotPlanned;

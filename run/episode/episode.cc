@@ -47,9 +47,9 @@ const T* OrNull(const std::optional<T>& value) {
 
 std::optional<HazardSight> SightOf(const Scenario& s) {
   std::vector<Reading> readings;
-  for (const NamedSensor& each : s.sensors) readings.push_back(each.sensor->Fills());
+  for (const NamedSensor& each : s.agents.sensors) readings.push_back(each.sensor->Fills());
   if (!HazardSight::Sees(readings)) return std::nullopt;
-  return HazardSight(s.site.map, s.robot.spec, 1.0 / s.episode.control_hz);
+  return HazardSight(s.world.site.map, s.world.robot.spec, 1.0 / s.spec.episode.control_hz);
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ class EpisodeLoop {
   std::optional<Outcome> Advance() {
     std::optional<Outcome> ended = Control();
     for (std::int64_t step = 0; step < steps_a_control_ && !ended; ++step) ended = Step();
-    if (!ended) Perceive(1.0 / s_.episode.control_hz);
+    if (!ended) Perceive(1.0 / s_.spec.episode.control_hz);
     return ended;
   }
   // The same; and where the next one would end it without driving, or only bring it to rest, it is
@@ -89,7 +89,7 @@ class EpisodeLoop {
   // What came of a period that the end broke off. Not part of the record, which is made before.
   void PerceiveEnd() {
     const double dt_s = sample_.t_s - sensed_.t_s;
-    if (dt_s > 0.5 * s_.physics.timestep_s) Perceive(dt_s);
+    if (dt_s > 0.5 * s_.world.physics.timestep_s) Perceive(dt_s);
   }
 
   EpisodeView View() {
@@ -105,19 +105,20 @@ class EpisodeLoop {
   const RobotSide& robot() const { return robot_side_; }
 
   EpisodeRecord Finish(Outcome ended) {
-    EpisodeRecord record = recorder_.Finish(ended, sample_, robot_side_, s_.detectors,
-                                            s_.episode.min_coverage, plant_.battery_left());
-    if (s_.online && !navigator_->plan().empty()) record.figures = s_.online->figures();
+    EpisodeRecord record = recorder_.Finish(ended, sample_, robot_side_, s_.agents.detectors,
+                                            s_.spec.episode.min_coverage, plant_.battery_left());
+    if (s_.agents.online && !navigator_->plan().empty())
+      record.figures = s_.agents.online->figures();
     if (ended == Outcome::kError) record.message = plant_.WhyBroken();
     if (record.message.empty()) record.message = navigator_->why();
     if (record.outcome == Outcome::kTimeout) {
       record.timeout = Unfinished();
-      if (record.message.empty()) record.message = Text(*record.timeout, s_.site.map);
+      if (record.message.empty()) record.message = Text(*record.timeout, s_.world.site.map);
     }
     if (record.message.empty() && record.outcome == Outcome::kAborted)
       record.message = robot_side_.supervisor()->stopped();
     if (record.message.empty()) record.message = interventions_.why_not();
-    if (s_.episode.drive == "physics" && !(ended == Outcome::kSuccess && IsEnoughCovered()))
+    if (s_.spec.episode.drive == "physics" && !(ended == Outcome::kSuccess && IsEnoughCovered()))
       record.RequireArrival(HowItArrived(), MostPlanLeft());
     record.TakeMissed(robot_side_.missed());
     encounters_.OnBlow(blows_.Take());
@@ -138,15 +139,16 @@ class EpisodeLoop {
   }
   bool IsLate() const { return sample_.t_s >= limit_s_ + interventions_.extra_s(); }
   bool IsEnoughCovered() const {
-    const std::optional<double>& enough = s_.episode.stop_at_coverage;
+    const std::optional<double>& enough = s_.spec.episode.stop_at_coverage;
     return enough && recorder_.coverage() >= *enough;
   }
   bool IsAtRest(const Supervisor& supervisor) const;
   Arrival HowItArrived() const;
   double MostPlanLeft() const {
     constexpr double kMost = 0.1;
-    const bool goes_around = s_.recovery || s_.safety || s_.episode.on_failure == "assist";
-    return s_.episode.max_plan_left.value_or(goes_around ? 1 : kMost);
+    const bool goes_around =
+        s_.agents.recovery || s_.agents.safety || s_.spec.episode.on_failure == "assist";
+    return s_.spec.episode.max_plan_left.value_or(goes_around ? 1 : kMost);
   }
   bool HasRested() const {
     constexpr double kAtRest_s = 2;
@@ -199,36 +201,37 @@ EpisodeLoop::EpisodeLoop(Scenario& s, Plant& plant, Simulation* simulation, cons
       plant_(plant),
       simulation_(simulation),
       observer_(observer),
-      robot_(s.robot.spec),
-      known_(KnownFloor(s)),
-      true_(TrueFloor(s)),
-      area_(ComputeSweepArea(true_, robot_, robot_.clear, robot_.tool, s.start)),
-      plan_m_(s.online ? std::numeric_limits<double>::infinity()
-                       : std::max(Length(plan.path), 1e-9)),
-      steps_a_control_(std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s))),
+      robot_(s.world.robot.spec),
+      known_(KnownFloor(s.world)),
+      true_(TrueFloor(s.world)),
+      area_(ComputeSweepArea(true_, robot_, robot_.clear, robot_.tool, s.world.start)),
+      plan_m_(s.agents.online ? std::numeric_limits<double>::infinity()
+                              : std::max(Length(plan.path), 1e-9)),
+      steps_a_control_(std::lround(1.0 / (s.spec.episode.control_hz * s.world.physics.timestep_s))),
       recorder_(s, area_, plan),
-      blows_(robot_, s.physics.timestep_s),
+      blows_(robot_, s.world.physics.timestep_s),
       sight_(SightOf(s)),
       encounters_(true_, robot_, IsHolonomic(robot_), OrNull(sight_)),
       interventions_(s),
       navigator_(navigator ? std::move(navigator) : MakeNavigator(s, plan, known_)),
       robot_side_(robot_, known_, *navigator_,
-                  {*s.tracker, *s.estimator, OrNull(s.mapper), OrNull(s.recovery), OrNull(s.safety),
-                   !s.online},
-                  1.0 / s.episode.control_hz) {
-  if (!s.online && !LeadsItself(s)) passed_.emplace(plan.path, s.episode.arrival_m);
+                  {*s.agents.tracker, *s.agents.estimator, OrNull(s.agents.mapper),
+                   OrNull(s.agents.recovery), OrNull(s.agents.safety), !s.agents.online},
+                  1.0 / s.spec.episode.control_hz) {
+  if (!s.agents.online && !LeadsItself(s)) passed_.emplace(plan.path, s.spec.episode.arrival_m);
 }
 
 void EpisodeLoop::Begin() {
-  plant_.Reset(s_.start, sensed_);
+  plant_.Reset(s_.world.start, sensed_);
   Look();
-  robot_side_.Start(s_.start, EpisodeStream(s_, "estimator"));
+  robot_side_.Start(s_.world.start, EpisodeStream(s_, "estimator"));
   const double plan_s =
-      LeadsItself(s_) ? GoToDuration(navigator_->plan(), robot_) : s_.tracker->Duration();
-  limit_s_ = s_.online ? OnlineLimit_s(s_.episode) : PlanLimit_s(s_.episode, plan_s);
+      LeadsItself(s_) ? GoToDuration(navigator_->plan(), robot_) : s_.agents.tracker->Duration();
+  limit_s_ =
+      s_.agents.online ? OnlineLimit_s(s_.spec.episode) : PlanLimit_s(s_.spec.episode, plan_s);
   recorder_.Expect(plan_s);
   StartDetectors();
-  Perceive(1.0 / s_.episode.control_hz);
+  Perceive(1.0 / s_.spec.episode.control_hz);
 }
 
 // What happens once a control period: command by what was sensed, keep a record, look on, help.
@@ -255,7 +258,7 @@ std::optional<Outcome> EpisodeLoop::Control() {
 
   if (!ended && interventions_.HasCome(sample_.t_s)) {     // after sensing: a bump was where it lay
     if (sample_.battery_v == 0) return Outcome::kFailure;  // cut off while it waited
-    recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), s_.detectors);
+    recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), s_.agents.detectors);
     rest_.Drop();
     encounters_.Lift();
     blows_.Lift();
@@ -302,8 +305,8 @@ bool EpisodeLoop::HasComeToRest() const { return rest_.begun() && rest_.IsOver(s
 Arrival EpisodeLoop::HowItArrived() const {
   Arrival how;
   how.believed = rest_.begun();
-  how.most_off_m = s_.episode.arrival_m;
-  if (!s_.online) {
+  how.most_off_m = s_.spec.episode.arrival_m;
+  if (!s_.agents.online) {
     how.end_W = (LeadsItself(s_) ? navigator_->path() : navigator_->plan()).back().p_W;
     how.off_m = (sample_.p_WB.head<2>() - how.end_W).norm();
   }
@@ -325,7 +328,7 @@ std::optional<Outcome> EpisodeLoop::Step() {
   Look();
   if (!good) return Outcome::kError;
   if (std::exchange(carried_, sample_.carried) != sample_.carried) {
-    recorder_.OnCarried(s_.detectors);
+    recorder_.OnCarried(s_.agents.detectors);
     encounters_.Lift();
     blows_.Lift();
     StartDetectors();  // nothing that it did brought it there
@@ -353,8 +356,8 @@ std::optional<Outcome> EpisodeLoop::Step() {
 
 // Something did, just now.
 std::optional<Outcome> EpisodeLoop::Failed() {
-  if (s_.episode.on_failure == "ignore") return std::nullopt;
-  if (s_.episode.on_failure == "watch") {
+  if (s_.spec.episode.on_failure == "ignore") return std::nullopt;
+  if (s_.spec.episode.on_failure == "watch") {
     aftermath_.OnFailure(sample_.t_s);
     encounters_.OnBlow(blows_.Take());
     encounters_.Watch();
@@ -385,9 +388,9 @@ void EpisodeLoop::Act(const Actuation& actuation) {
 }
 
 void EpisodeLoop::StartDetectors() {
-  const EpisodeContext context{s_.site.map, robot_, s_.physics.timestep_s};
+  const EpisodeContext context{s_.world.site.map, robot_, s_.world.physics.timestep_s};
   met_.Start(context);
-  for (auto& [name, detector] : s_.detectors) detector->Start(context);
+  for (auto& [name, detector] : s_.agents.detectors) detector->Start(context);
 }
 
 // Where the time ran out, and what held the robot last.
@@ -399,7 +402,7 @@ Timeout EpisodeLoop::Unfinished() const {
 // True when one of them fired; all see every sample.
 bool EpisodeLoop::Detect() {
   bool failed = false;
-  for (auto& [name, detector] : s_.detectors) {
+  for (auto& [name, detector] : s_.agents.detectors) {
     if (!detector->Update(sample_)) continue;
     recorder_.OnEvent(detector->event());
     encounters_.OnEvent(detector->event());
@@ -411,8 +414,8 @@ bool EpisodeLoop::Detect() {
 namespace {
 
 PhysicsPlant MakePlant(Scenario& s, const Scene& scene) {
-  return PhysicsPlant(scene, s.site.map, s.robot.spec, s.sensors, s.faults,
-                      1.0 / s.episode.control_hz,
+  return PhysicsPlant(scene, s.world.site.map, s.world.robot.spec, s.agents.sensors, s.world.faults,
+                      1.0 / s.spec.episode.control_hz,
                       [&s](const std::string& name) { return EpisodeStream(s, name); });
 }
 

@@ -10,7 +10,7 @@
 namespace floorproof {
 
 inline Stream EpisodeStream(const Scenario& s, std::string_view name) {
-  return {static_cast<std::uint64_t>(s.episode.seed), s.episode_id, name};
+  return {static_cast<std::uint64_t>(s.spec.episode.seed), s.spec.episode_id, name};
 }
 
 }  // namespace floorproof

@@ -32,26 +32,26 @@ Execution Execute(Scenario& scenario, EpisodeObserver* observer) {
 
 EpisodeRecord ExecutePlan(Scenario& s, const PlanResult& plan, std::optional<Scene>& scene,
                           EpisodeObserver* observer) {
-  if (plan.status == PlanStatus::kOnline && s.episode.drive == "cells")
+  if (plan.status == PlanStatus::kOnline && s.spec.episode.drive == "cells")
     return DriveCells(s, observer);
   EpisodeRecord record;
-  const bool on_the_way = plan.status == PlanStatus::kOnline && s.episode.drive == "physics";
+  const bool on_the_way = plan.status == PlanStatus::kOnline && s.spec.episode.drive == "physics";
   if (plan.status != PlanStatus::kSuccess && !on_the_way) {
     record.outcome = Outcome::kNotPlanned;
     record.message = plan.message;
     return record;
   }
-  if (s.episode.drive == "none") {
+  if (s.spec.episode.drive == "none") {
     record.outcome = Outcome::kSuccess;
     return record;
   }
   std::optional<DirtField> dirt;  // laid before the drive: what is wrong with it costs no drive
-  if (s.dirt && !plan.samples.empty()) dirt = DirtyFloor(s, *plan.risk);
-  scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+  if (s.world.dirt && !plan.samples.empty()) dirt = DirtyFloor(s, *plan.risk);
+  scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
   if (observer) observer->OnScene(*scene);
   record = RunEpisode(s, *scene, plan, observer);
   if (dirt) record.audit = AuditFloor(s, plan, record.sample_stops, std::move(*dirt));
-  MeasureSamples(s.robot.spec, plan, record);
+  MeasureSamples(s.world.robot.spec, plan, record);
   return record;
 }
 

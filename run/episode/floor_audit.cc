@@ -36,8 +36,8 @@ void Clean(const Scenario& s, const RiskMap& risk, DirtField& field) {
   const PlanResult plan = CleanerPlan(s, risk);
   const std::vector<Pose2> poses = PosesAlong(plan.path);
   Stream random = EpisodeStream(s, "cleaning");
-  for (int round = 0; round < s.dirt->cleaning.rounds; ++round)
-    CleanAlong(field, plan.tool, poses, s.dirt->cleaning.brush, random);
+  for (int round = 0; round < s.world.dirt->cleaning.rounds; ++round)
+    CleanAlong(field, plan.tool, poses, s.world.dirt->cleaning.brush, random);
 }
 
 void MeasureDirt(const DirtField& field, FloorAudit& audit) {
@@ -111,18 +111,21 @@ double OffPlace(const RobotSpec& robot, const PlanResult& plan, const SampleStop
 }
 
 PlanResult CleanerPlan(const Scenario& s, const RiskMap& risk) {
-  const HazardMap known = KnownFloor(s);
-  PlanResult plan = s.dirt->cleaner->Plan(
-      {known, s.robot.spec, s.start, s.goal, EpisodeStream(s, "cleaner").Next(), &risk});
+  const HazardMap known = KnownFloor(s.world);
+  PlanResult plan =
+      s.world.dirt->cleaner->Plan({known, s.world.robot.spec, s.world.start, s.world.goal,
+                                   EpisodeStream(s, "cleaner").Next(), &risk});
   if (plan.status != PlanStatus::kSuccess)
-    throw InputError(s.dirt->cleaner_mark, "dirt.cleaning.plan.planner", s.dirt->cleaner_name,
+    throw InputError(s.world.dirt->cleaner_mark, "dirt.cleaning.plan.planner",
+                     s.world.dirt->cleaner_name,
                      fmt::format("finds no plan ({}): {}", Name(plan.status), plan.message));
   return plan;
 }
 
 DirtField DirtyFloor(const Scenario& s, const RiskMap& risk) {
-  DirtField field = LayDirt(s.site.map, s.dirt->params.laid, EpisodeStream(s, "dirt").Next());
-  if (s.dirt->cleaning.rounds > 0) Clean(s, risk, field);
+  DirtField field =
+      LayDirt(s.world.site.map, s.world.dirt->params.laid, EpisodeStream(s, "dirt").Next());
+  if (s.world.dirt->cleaning.rounds > 0) Clean(s, risk, field);
   return field;
 }
 
@@ -132,11 +135,11 @@ FloorAudit AuditFloor(const Scenario& s, const PlanResult& plan,
   MeasureDirt(field, audit);
   Stream lift = EpisodeStream(s, "samples_lift"), tapes = EpisodeStream(s, "samples_tapes");
   for (const SampleStop& stop : stops) {
-    const Pose2 X_WT = TapePose(s.robot.spec, stop);
+    const Pose2 X_WT = TapePose(s.world.robot.spec, stop);
     audit.samples.push_back(
-        {stop, X_WT, TakeSample(field, X_WT, s.dirt->params.sampling, lift, tapes.Next())});
+        {stop, X_WT, TakeSample(field, X_WT, s.world.dirt->params.sampling, lift, tapes.Next())});
   }
-  Score(plan, s.dirt->params.dirty_above, audit);
+  Score(plan, s.world.dirt->params.dirty_above, audit);
   return audit;
 }
 

@@ -56,9 +56,9 @@ double HeadingAt(const Path& path, std::size_t waypoint) {
 }  // namespace
 
 std::optional<SetDownPlace> PlaceAhead(const Scenario& s, const Path& path, std::size_t first) {
-  const HazardMap& map = s.site.map;
-  const RobotSpec& robot = s.robot.spec;
-  const Grid<std::uint8_t> floor = FloorAround(map, s.start.p());
+  const HazardMap& map = s.world.site.map;
+  const RobotSpec& robot = s.world.robot.spec;
+  const Grid<std::uint8_t> floor = FloorAround(map, s.world.start.p());
   const double drawn_back_m = std::min(map.inset_m, robot.inscribed_radius_m / 2);
   const Polygon outline_B = Outline(robot.clear), inner_B = Offset(outline_B, -kBeside_m),
                 among_walls_B = Offset(inner_B, -drawn_back_m);
@@ -73,7 +73,7 @@ std::optional<SetDownPlace> PlaceAhead(const Scenario& s, const Path& path, std:
 }
 
 bool Interventions::Call(const Path& path, const Sample& failed) {
-  if (s_.episode.on_failure != "assist") return false;
+  if (s_.spec.episode.on_failure != "assist") return false;
   if (failed.battery_v == 0) return false;  // a robot without power goes on from nowhere
   const std::size_t ahead = failed.command.segment + 1;
   place_ = PlaceAhead(s_, path, ahead);

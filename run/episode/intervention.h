@@ -48,7 +48,7 @@ class Interventions {
   // Carries the robot and sends it on its way; from here on nobody is awaited.
   Intervention SetDown(Plant& plant, RobotSide& side);
   // What waiting adds to a time limit that the scenario does not write.
-  double extra_s() const { return s_.episode.time_limit_s ? 0 : calls_ * kComes_s; }
+  double extra_s() const { return s_.spec.episode.time_limit_s ? 0 : calls_ * kComes_s; }
 
  private:
   const Scenario& s_;

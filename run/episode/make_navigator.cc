@@ -27,17 +27,18 @@ Extent Around(const Shape2& shape) {
 
 std::unique_ptr<Navigator> MakeNavigator(const Scenario& s, const PlanResult& plan,
                                          const HazardMap& known) {
-  const RobotSpec& robot = s.robot.spec;
+  const RobotSpec& robot = s.world.robot.spec;
   if (LeadsItself(s)) return std::make_unique<GoToNavigator>(plan);
-  if (!s.online)
-    return std::make_unique<PlanNavigator>(plan, known, robot, s.recovery ? &*s.recovery : nullptr);
-  const HeldShapes held = HoldYaw(known, s.start, robot.clear, robot.tool);
+  if (!s.agents.online)
+    return std::make_unique<PlanNavigator>(plan, known, robot,
+                                           s.agents.recovery ? &*s.agents.recovery : nullptr);
+  const HeldShapes held = HoldYaw(known, s.world.start, robot.clear, robot.tool);
   const Extent body = Around(held.clear);
   return std::make_unique<OnlineNavigator>(
-      *s.online,
+      *s.agents.online,
       OnlineNavigator::Robot{body, body.Wider(kMargin_m), Around(held.tool), robot.tool_width_m,
                              kPlannedShare * robot.max_accel_mps2, held.yaw_rad},
-      s.start.p(), PlanSeed(s));
+      s.world.start.p(), PlanSeed(s));
 }
 
 }  // namespace floorproof

@@ -21,15 +21,15 @@ namespace {
 
 PlanResult NotOurs(const Scenario& s, const PlanRequest& request) {
   PlanResult plan;
-  Path path = s.user_plan;
+  Path path = s.spec.user_plan;
   if (const PlanCommand* program = ProgramToAsk(s)) {
     ProgramAnswer answer = AskProgram(s, *program, request);
     path = std::move(answer.path);
     plan.message = std::move(answer.failure);
   }
   if (path.empty()) return plan;
-  plan.lead_in_m = (path.front().p_W - s.start.p()).norm();
-  plan.path = FromStart(std::move(path), s.start.p());
+  plan.lead_in_m = (path.front().p_W - s.world.start.p()).norm();
+  plan.path = FromStart(std::move(path), s.world.start.p());
   plan.status = PlanStatus::kSuccess;
   return plan;
 }
@@ -66,22 +66,22 @@ PlanResult Planned(const Planner& planner, const PlanRequest& request) {
 }  // namespace
 
 PlanResult MakePlan(const Scenario& s) {
-  const RobotSpec& robot = s.robot.spec;
-  const HazardMap known = KnownFloor(s);
-  auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.fmea, s.risk));
-  const std::vector<DriveConditions> conditions = s.planner && s.planner->promises().needs_model
-                                                      ? ConditionsOf(s)
-                                                      : std::vector<DriveConditions>();
-  const PlanRequest request{known,       robot,      s.start,  s.goal,
-                            PlanSeed(s), risk.get(), s.places, s.risk_model.get(),
+  const RobotSpec& robot = s.world.robot.spec;
+  const HazardMap known = KnownFloor(s.world);
+  auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.spec.fmea, s.spec.risk));
+  const std::vector<DriveConditions> conditions =
+      s.agents.planner && s.agents.planner->promises().needs_model ? ConditionsOf(s)
+                                                                   : std::vector<DriveConditions>();
+  const PlanRequest request{known,       robot,      s.world.start, s.world.goal,
+                            PlanSeed(s), risk.get(), s.spec.places, s.spec.risk_model.get(),
                             conditions};
   PlanResult plan;
-  if (s.planner) {
-    plan = Planned(*s.planner, request);
+  if (s.agents.planner) {
+    plan = Planned(*s.agents.planner, request);
   } else {
-    if (s.online) {
+    if (s.agents.online) {
       plan.status = PlanStatus::kOnline;
-      plan.message = s.planner_name + " plans while it drives, as the floor becomes known";
+      plan.message = s.spec.planner_name + " plans while it drives, as the floor becomes known";
     } else {
       plan = NotOurs(s, request);
     }

@@ -25,15 +25,15 @@ const PlainDraw* FindPlainDraw(const std::string& key) {
 
 std::vector<DriveConditions> ConditionsOf(const Scenario& s) {
   constexpr std::uint64_t kConditions = 64;
-  const DriveConditions known{s.site.map.floor_friction, s.robot.spec.mass_kg,
-                              s.robot.spec.clearance_m};
-  std::vector<RandomisedKey> keys = ReadRandomise(&s.randomise, s.sampling);
+  const DriveConditions known{s.world.site.map.floor_friction, s.world.robot.spec.mass_kg,
+                              s.world.robot.spec.clearance_m};
+  std::vector<RandomisedKey> keys = ReadRandomise(&s.text.randomise, s.spec.sampling);
   std::erase_if(keys,
                 [](const RandomisedKey& key) { return FindPlainDraw(key.key_path) == nullptr; });
   if (keys.empty()) return {known};
   for (std::size_t i = 0; i < keys.size(); ++i) keys[i].dimension = i;
   const std::uint64_t seed =
-      Stream(static_cast<std::uint64_t>(s.episode.seed), 0, "conditions to plan for").Next();
+      Stream(static_cast<std::uint64_t>(s.spec.episode.seed), 0, "conditions to plan for").Next();
   std::vector<DriveConditions> conditions(kConditions, known);
   for (std::uint64_t i = 0; i < kConditions; ++i)
     for (const auto& [key, value] : Draw(keys, seed, i, Sampling::kLowDiscrepancy))

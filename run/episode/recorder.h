@@ -26,14 +26,14 @@ class Recorder {
   // All outlive it.
   Recorder(const Scenario& s, const SweepArea& area, const PlanResult& plan)
       : area_(area),
-        meter_(area, s.robot.spec),
+        meter_(area, s.world.robot.spec),
         risk_(*plan.risk),
         samples_(plan.samples.size()),
         asks_for_risk_(AsksForRisk(s)),
-        dt_s_(s.physics.timestep_s),
-        trace_hz_(s.episode.trace_hz),
-        trace_every_(s.episode.control_hz / s.episode.trace_hz) {
-    for (const ScheduledFault& fault : s.faults)
+        dt_s_(s.world.physics.timestep_s),
+        trace_hz_(s.spec.episode.trace_hz),
+        trace_every_(s.spec.episode.control_hz / s.spec.episode.trace_hz) {
+    for (const ScheduledFault& fault : s.world.faults)
       first_fault_s_ = std::min(first_fault_s_, fault.timing.onset_s);
   }
 

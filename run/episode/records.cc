@@ -113,14 +113,14 @@ Json SamplesJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord*
   if (driven == nullptr) return json;
   for (std::size_t i = 0; i < driven->sample_stops.size(); ++i) {
     const SampleStop& stop = driven->sample_stops[i];
-    const Pose2 X_WT = TapePose(s.robot.spec, stop);
+    const Pose2 X_WT = TapePose(s.world.robot.spec, stop);
     Json& taken = json[static_cast<std::size_t>(stop.place)];
     taken["status"] = "taken";
     taken["tape"] = {{"t_s", stop.t_s},
                      {"x_m", Coordinate(X_WT.x_m)},
                      {"y_m", Coordinate(X_WT.y_m)},
                      {"yaw_rad", X_WT.yaw_rad},
-                     {"off_m", OffPlace(s.robot.spec, plan, stop)}};
+                     {"off_m", OffPlace(s.world.robot.spec, plan, stop)}};
     if (driven->audit) AddReadings(driven->audit->samples[i].sample, taken);
   }
   return json;
@@ -269,19 +269,20 @@ Json MetricsJson(const Metrics& metrics) {
 
 Json PlanJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord* driven) {
   if (plan.status == PlanStatus::kOnline)  // there is nothing to measure yet
-    return {{"status", Name(plan.status)}, {"message", plan.message}, {"planner", s.planner_name}};
+    return {
+        {"status", Name(plan.status)}, {"message", plan.message}, {"planner", s.spec.planner_name}};
   const bool circle = plan.clear.kind == Shape2::Kind::kCircle;
   PathCoverage covered;
   double area_m2 = 0;
   if (!plan.path.empty()) {
-    const SweepArea area =
-        ComputeSweepArea(KnownFloor(s), s.robot.spec, plan.clear, plan.tool, s.start);
+    const SweepArea area = ComputeSweepArea(KnownFloor(s.world), s.world.robot.spec, plan.clear,
+                                            plan.tool, s.world.start);
     covered = MeasureCoverage(area, plan.tool, plan.path);
     area_m2 = area.area_m2();
   }
   Json json = {{"status", Name(plan.status)},
                {"message", plan.message},
-               {"planner", s.planner_name.empty() ? "file" : s.planner_name},
+               {"planner", s.spec.planner_name.empty() ? "file" : s.spec.planner_name},
                {"length_m", Length(plan.path)},
                {"turns", CountTurns(plan.path)},
                {"waypoints", plan.path.size()},
@@ -290,7 +291,7 @@ Json PlanJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord* dr
                {"sweepable_m2", area_m2},
                {"tool_width_m", plan.tool_width_m},
                {"keeps_clear", circle ? "circle" : "footprint"},
-               {"radius_m", circle ? plan.clear.radius_m : s.robot.spec.inscribed_radius_m}};
+               {"radius_m", circle ? plan.clear.radius_m : s.world.robot.spec.inscribed_radius_m}};
   if (AsksForRisk(s)) AddRisk(plan, json);
   for (const auto& [name, value] : plan.figures) json[name] = value;
   if (!plan.samples.empty()) json["sample_places"] = SamplesJson(s, plan, driven);
@@ -305,25 +306,25 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
   for (const auto& [name, value] : record.figures) figures[name] = value;
   Json events = EventsJson(record.events);
   for (std::size_t i = 0; i < events.size(); ++i)
-    events[i]["text"] = FailureSentence(record.events[i], s.site.map);
+    events[i]["text"] = FailureSentence(record.events[i], s.world.site.map);
   Json json = {{"schema", 1},
-               {"scenario", s.name},
-               {"robot", s.robot_name},
-               {"site", s.site.map.name},
+               {"scenario", s.spec.name},
+               {"robot", s.spec.robot_name},
+               {"site", s.world.site.map.name},
                {"outcome", Name(record.outcome)},
                {"message", record.message}};
   if (record.timeout) json["timeout"] = TimeoutJson(record.timeout);
   if (record.arrival) json["arrival"] = ArrivalJson(*record.arrival);
   if (!record.figures.empty()) json["planner"] = std::move(figures);
   if (record.audit) json["audit"] = AuditJson(*record.audit);
-  if (s.safety) json["alarms"] = AlarmsJson(record.alarms);
+  if (s.agents.safety) json["alarms"] = AlarmsJson(record.alarms);
   json.update({{"events", std::move(events)},
                {"assists", InterventionsJson(record.interventions)},
                {"metrics", MetricsJson(record.metrics)},
                {"margins", std::move(margins)},
                {"steps", record.steps},
-               {"seed", s.episode.seed},
-               {"drawn", DrawnJson(s.drawn)},
+               {"seed", s.spec.episode.seed},
+               {"drawn", DrawnJson(s.spec.drawn)},
                {"versions", VersionsJson()}});
   return json;
 }
@@ -426,11 +427,11 @@ void RemoveEpisodeFiles(const ResultFolder& folder) {
 
 void WriteEpisodeFiles(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
                        const std::filesystem::path& folder) {
-  WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.robot.spec));
+  WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.world.robot.spec));
   if (!record.passes.cells.empty()) WriteFileWhole(folder / "visits.pgm", VisitsPgm(record));
-  if (s.episode.drive == "physics")
+  if (s.spec.episode.drive == "physics")
     WriteFileWhole(folder / "encounters.csv", EncountersCsv(record.encounters));
-  if (s.safety) WriteFileWhole(folder / "safety.csv", SafetyCsv(record));
+  if (s.agents.safety) WriteFileWhole(folder / "safety.csv", SafetyCsv(record));
   if (!plan.samples.empty() && record.steps > 0)
     WriteFileWhole(folder / "plan.json", JsonText(PlanJson(s, plan, &record)) + "\n");
   if (record.outcome != Outcome::kInterrupted)

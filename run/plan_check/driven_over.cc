@@ -61,11 +61,12 @@ class Meeting {
 }  // namespace
 
 std::vector<DrivenOver> FindDrivenOver(const Scenario& s, const PlanResult& plan) {
-  const HazardMap floor = TrueFloor(s);
+  const HazardMap floor = TrueFloor(s.world);
   const auto& hazards = floor.hazards;
   if (hazards.empty()) return {};
-  Meeting meeting(floor, s.robot.spec);
-  SweepPlan(s.robot, s.start, plan.path, [&](const SweptPiece& piece) { meeting.Look(piece); });
+  Meeting meeting(floor, s.world.robot.spec);
+  SweepPlan(s.world.robot, s.world.start, plan.path,
+            [&](const SweptPiece& piece) { meeting.Look(piece); });
   std::vector<DrivenOver> found = meeting.Found();
   std::ranges::stable_sort(found, [&](const DrivenOver& a, const DrivenOver& b) {
     return std::tuple(hazards[a.hazard].known, -a.over_m, -a.times) <

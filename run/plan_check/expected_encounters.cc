@@ -19,10 +19,11 @@ namespace {
 // the scenario names no such share.
 class EnoughCovered {
  public:
-  EnoughCovered(const Scenario& s, const HazardMap& floor) : enough_(s.episode.stop_at_coverage) {
+  EnoughCovered(const Scenario& s, const HazardMap& floor)
+      : enough_(s.spec.episode.stop_at_coverage) {
     if (!enough_) return;
-    const RobotSpec& robot = s.robot.spec;
-    area_ = ComputeSweepArea(floor, robot, robot.clear, robot.tool, s.start);
+    const RobotSpec& robot = s.world.robot.spec;
+    area_ = ComputeSweepArea(floor, robot, robot.clear, robot.tool, s.world.start);
     tool_.emplace(area_, robot);
   }
   void Sweep(int shape, const Pose2& X_WB) {
@@ -42,22 +43,22 @@ class EnoughCovered {
 
 std::vector<Encounter> ExpectedEncounters(Scenario& s, const PlanResult& plan) {
   if (plan.path.empty()) return {};
-  const RobotSpec& robot = s.robot.spec;
-  const HazardMap known = KnownFloor(s), floor = TrueFloor(s);
+  const RobotSpec& robot = s.world.robot.spec;
+  const HazardMap known = KnownFloor(s.world), floor = TrueFloor(s.world);
   const ClearanceField clearance =
       ClearanceOnTheWay(known, LevelChangesOnTheWay(known, plan.path), robot.step_m);
-  s.tracker->Start(plan.path, robot, &clearance);  // it is started anew before it drives
+  s.agents.tracker->Start(plan.path, robot, &clearance);  // it is started anew before it drives
   EncounterMeter meter(floor, robot, IsHolonomic(robot));
-  IdealRobot ideal(robot, s.start);
-  const double period_s = 1.0 / s.episode.control_hz;
-  const double limit_s = PlanLimit_s(s.episode, s.tracker->Duration());
+  IdealRobot ideal(robot, s.world.start);
+  const double period_s = 1.0 / s.spec.episode.control_hz;
+  const double limit_s = PlanLimit_s(s.spec.episode, s.agents.tracker->Duration());
   EnoughCovered enough(s, floor);
   Sample sample;
   for (std::int64_t period = 0; !sample.command.done && !enough.reached(); ++period) {
     sample.t_s = static_cast<double>(period) * period_s;
     if (sample.t_s >= limit_s) break;
     const Estimate& state = ideal.state();
-    sample.command = s.tracker->Update(state, sample.t_s, period_s);
+    sample.command = s.agents.tracker->Update(state, sample.t_s, period_s);
     sample.p_WB = {state.X_WB.x_m, state.X_WB.y_m, 0};
     sample.yaw_rad = state.X_WB.yaw_rad;
     sample.shape = robot.hinges.empty() ? 0 : ShapeOf(robot, state.hinges, kInShape_rad);

@@ -10,32 +10,35 @@
 namespace floorproof {
 
 PlanBudget EstimateBudget(Scenario& s, const PlanResult& plan) {
-  const HazardMap known = KnownFloor(s);
+  const HazardMap known = KnownFloor(s.world);
   const ClearanceField clearance =
-      ClearanceOnTheWay(known, LevelChangesOnTheWay(known, plan.path), s.robot.spec.step_m);
-  s.tracker->Start(plan.path, s.robot.spec, &clearance);  // it is started anew before it drives
+      ClearanceOnTheWay(known, LevelChangesOnTheWay(known, plan.path), s.world.robot.spec.step_m);
+  s.agents.tracker->Start(plan.path, s.world.robot.spec,
+                          &clearance);  // it is started anew before it drives
   PlanBudget out;
-  out.time_s = s.tracker->Duration();
+  out.time_s = s.agents.tracker->Duration();
   double dwell_s = 0;
   for (const Waypoint& w : plan.path) dwell_s += w.dwell_s;
   const double moving_s = std::max(0.0, out.time_s - dwell_s);
 
-  const SpecPtr spec(mj_copySpec(s.robot.mjcf.get()));
-  const ModelPtr model(mj_compile(spec.get(), s.robot.assets.get()));
+  const SpecPtr spec(mj_copySpec(s.world.robot.mjcf.get()));
+  const ModelPtr model(mj_compile(spec.get(), s.world.robot.assets.get()));
   if (!model)
-    throw InputError({s.robot_file.string(), 0}, "", mjs_getError(spec.get()), "does not compile");
-  const double motors_w =
-      moving_s > 0 ? SteadyMotorsPower(model.get(), s.robot.spec, Length(plan.path) / moving_s) : 0;
-  const double hotel_w = s.robot.spec.hotel_load_w;
+    throw InputError({s.spec.robot_file.string(), 0}, "", mjs_getError(spec.get()),
+                     "does not compile");
+  const double motors_w = moving_s > 0 ? SteadyMotorsPower(model.get(), s.world.robot.spec,
+                                                           Length(plan.path) / moving_s)
+                                       : 0;
+  const double hotel_w = s.world.robot.spec.hotel_load_w;
   out.energy_j = hotel_w * out.time_s + motors_w * moving_s;
-  if (!s.battery.capacity_wh || !s.battery.voltage_v) return out;
+  if (!s.world.robot.spec.battery.capacity_wh || !s.world.robot.spec.battery.voltage_v) return out;
   // Drawn from the cells, which heat as well.
-  const double volt = *s.battery.voltage_v;
+  const double volt = *s.world.robot.spec.battery.voltage_v;
   const auto cells_j = [&](double load_w, double time_s) {
-    return volt * Feed(volt, s.battery.resistance_ohm, load_w).current_a * time_s;
+    return volt * Feed(volt, s.world.robot.spec.battery.resistance_ohm, load_w).current_a * time_s;
   };
   out.battery_share = (cells_j(hotel_w, dwell_s) + cells_j(hotel_w + motors_w, moving_s)) /
-                      (*s.battery.capacity_wh * 3600);
+                      (*s.world.robot.spec.battery.capacity_wh * 3600);
   return out;
 }
 

@@ -228,10 +228,10 @@ std::string SweptText(const PlanResult& plan, const Json& json) {
 }
 
 PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
-  const SweepArea area =
-      ComputeSweepArea(KnownFloor(s), s.robot.spec, plan.clear, plan.tool, s.start);
+  const SweepArea area = ComputeSweepArea(KnownFloor(s.world), s.world.robot.spec, plan.clear,
+                                          plan.tool, s.world.start);
   return {CheckClearance(s, plan), FindDrivenOver(s, plan), FindUncovered(s, plan, area),
-          EstimateBudget(s, plan), CountSharpCorners(plan.path, s.robot.spec)};
+          EstimateBudget(s, plan), CountSharpCorners(plan.path, s.world.robot.spec)};
 }
 
 std::string ConflictsLine(const PlanClearance& clearance) {
@@ -254,7 +254,7 @@ std::string UnheldDwellLine(const Scenario& s, const PlanResult& plan) {
   const std::string where = fmt::format(
       "warning: the plan dwells at {} on a slope of {:.1f} deg, where the robot rolls away: ",
       At(dwell->p_W), dwell->slope_rad * 180 / kPi);
-  if (s.robot.spec.standstill == Standstill::kFree)
+  if (s.world.robot.spec.standstill == Standstill::kFree)
     return where + "its wheels turn freely (`standstill` in its model)";
   return where + fmt::format("its motors hold {} N, but its weight pulls {} N down the slope",
                              NumberText(dwell->holds_n), NumberText(dwell->pulls_n));
@@ -262,7 +262,7 @@ std::string UnheldDwellLine(const Scenario& s, const PlanResult& plan) {
 
 std::vector<std::string> CrossingLines(const Scenario& s, const PlanClearance& clearance) {
   std::vector<std::string> lines;
-  AddCrossings(KnownFloor(s), s.robot.spec, clearance, lines);
+  AddCrossings(KnownFloor(s.world), s.world.robot.spec, clearance, lines);
   return lines;
 }
 
@@ -280,17 +280,17 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
     lines.push_back(fmt::format(
         "the plan begins {} from the start at {}: the robot is led there straight, by a first leg "
         "that is not in it (start.x_m, start.y_m)",
-        LengthText(plan.lead_in_m), At(s.start.p())));
-  const HazardMap floor = KnownFloor(s);
-  AddClearance(floor, check.clearance, s.estimator_name,
-               s.estimator->error_m(floor, Length(plan.path)), lines);
-  if (const auto sharp = SharpCornersLine(s.robot.spec, check.sharp_corners); !sharp.empty())
+        LengthText(plan.lead_in_m), At(s.world.start.p())));
+  const HazardMap floor = KnownFloor(s.world);
+  AddClearance(floor, check.clearance, s.spec.estimator_name,
+               s.agents.estimator->error_m(floor, Length(plan.path)), lines);
+  if (const auto sharp = SharpCornersLine(s.world.robot.spec, check.sharp_corners); !sharp.empty())
     lines.push_back(sharp);
   if (auto unheld = UnheldDwellLine(s, plan); !unheld.empty()) lines.push_back(std::move(unheld));
-  AddCrossings(floor, s.robot.spec, check.clearance, lines);
-  AddDrivenOver(TrueFloor(s), s.robot.spec, check.driven_over, lines);
+  AddCrossings(floor, s.world.robot.spec, check.clearance, lines);
+  AddDrivenOver(TrueFloor(s.world), s.world.robot.spec, check.driven_over, lines);
   if (plan.samples.empty())
-    AddUncovered(floor, s.robot.spec, plan, check.uncovered, lines);
+    AddUncovered(floor, s.world.robot.spec, plan, check.uncovered, lines);
   else
     AddSamples(plan, lines);
   return lines;
@@ -300,9 +300,10 @@ namespace {
 
 // A plan of the user's own is taken for one that covers, unless `success` says otherwise.
 bool IsToCover(const Scenario& s) {
-  if (s.episode.min_coverage > 0) return true;
-  if (s.planner) return s.planner->promises().covers != PlannerPromises::Covers::kNothing;
-  return !s.written.contains("success");
+  if (s.spec.episode.min_coverage > 0) return true;
+  if (s.agents.planner)
+    return s.agents.planner->promises().covers != PlannerPromises::Covers::kNothing;
+  return !s.spec.written.contains("success");
 }
 
 // Every plan leaves a corner here and there.
@@ -356,7 +357,7 @@ Json PlanCheckJson(const Scenario& s, const PlanCheck& check) {
                  {"times", crossing.times}});
     crossings.push_back(std::move(json));
   }
-  const HazardMap true_floor = TrueFloor(s);
+  const HazardMap true_floor = TrueFloor(s.world);
   Json over = Json::array();
   for (const DrivenOver& driven : check.driven_over) {
     const Hazard& hazard = true_floor.hazards[driven.hazard];
@@ -393,7 +394,7 @@ Json PlanCheckJson(const Scenario& s, const PlanCheck& check) {
                {"expected_energy_j", check.budget.energy_j},
                {"expected_battery_share",
                 check.budget.battery_share ? Json(*check.budget.battery_share) : Json(nullptr)}};
-  if (s.robot.spec.turn_radius_m > 0) json["sharp_corners"] = check.sharp_corners;
+  if (s.world.robot.spec.turn_radius_m > 0) json["sharp_corners"] = check.sharp_corners;
   return json;
 }
 

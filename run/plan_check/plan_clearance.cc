@@ -368,9 +368,10 @@ class Check {
 }  // namespace
 
 PlanClearance CheckClearance(const Scenario& s, const PlanResult& plan) {
-  const HazardMap known = KnownFloor(s);
-  Check check(known, s.robot.spec, s.start.p(), plan.path);
-  SweepPlan(s.robot, s.start, plan.path, [&](const SweptPiece& piece) { check.Look(piece); });
+  const HazardMap known = KnownFloor(s.world);
+  Check check(known, s.world.robot.spec, s.world.start.p(), plan.path);
+  SweepPlan(s.world.robot, s.world.start, plan.path,
+            [&](const SweptPiece& piece) { check.Look(piece); });
   return check.Finish();
 }
 

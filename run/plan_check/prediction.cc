@@ -36,17 +36,17 @@ class Predictor {
   void Read(std::uint64_t episode) {
     scenario_.emplace(file_.Read(episode, variant_));
     Scenario& s = *scenario_;
-    if (!s.risk_model)
-      throw InputError({s.file.string(), 0}, "risk.model", "",
-                       "is missing: rates that were measured of " + s.robot_name +
+    if (!s.spec.risk_model)
+      throw InputError({s.spec.file.string(), 0}, "risk.model", "",
+                       "is missing: rates that were measured of " + s.spec.robot_name +
                            " are needed to predict by (floorproof measure, an hour, then --model "
                            "risk_model.json)");
-    if (s.online || LeadsItself(s))
-      throw InputError({s.file.string(), 0}, "plan", s.planner_name,
+    if (s.agents.online || LeadsItself(s))
+      throw InputError({s.spec.file.string(), 0}, "plan", s.spec.planner_name,
                        "is made on the way: nothing can be predicted of a plan that is not there");
     RefuseProgram(s);
     if (!rates_) {
-      model_ = s.risk_model;
+      model_ = s.spec.risk_model;
       rates_.emplace(*model_);
     }
     if (std::string inputs = PlanInputs(s); inputs != inputs_) {
@@ -54,11 +54,11 @@ class Predictor {
       inputs_ = std::move(inputs);
     }
     if (plan_.status != PlanStatus::kSuccess)
-      throw InputError({s.file.string(), 0}, "plan", "",
+      throw InputError({s.spec.file.string(), 0}, "plan", "",
                        "there is none (" + std::string(Name(plan_.status)) + "): " + plan_.message);
     expected_ = ExpectedEncounters(s, plan_);
     if (conditions_.empty()) left_out_ = LeftOut(s);
-    const HazardMap floor = TrueFloor(s);
+    const HazardMap floor = TrueFloor(s.world);
     FindLooseRamps(floor);
     FindOtherFloors(floor, s);
     if (conditions_.empty())
@@ -158,16 +158,17 @@ class Predictor {
 
   static std::vector<std::string> LeftOut(const Scenario& s) {
     std::vector<std::string> left_out;
-    if (s.estimator_name != "truth")
-      left_out.push_back("how wrong " + s.estimator_name +
+    if (s.spec.estimator_name != "truth")
+      left_out.push_back("how wrong " + s.spec.estimator_name +
                          " is about the robot's place: it is taken to know it");
     const std::optional<double> own_v =
-        ReadRobot(s.robot_file, {}, Blocks::kLocked, s.files).spec.battery.voltage_v;
-    if (const std::optional<double>& v = s.robot.spec.battery.voltage_v; v && own_v && *v != *own_v)
+        ReadRobot(s.spec.robot_file, {}, Blocks::kLocked, s.files).spec.battery.voltage_v;
+    if (const std::optional<double>& v = s.world.robot.spec.battery.voltage_v;
+        v && own_v && *v != *own_v)
       left_out.push_back(fmt::format("a battery of {} V: the rates were measured at {} V",
                                      NumberText(*v), NumberText(*own_v)));
-    if (!s.faults.empty()) left_out.push_back("what breaks (`faults`)");
-    if (s.safety) left_out.push_back("what its supervision does (`safety`)");
+    if (!s.world.faults.empty()) left_out.push_back("what breaks (`faults`)");
+    if (s.agents.safety) left_out.push_back("what its supervision does (`safety`)");
     return left_out;
   }
 

@@ -129,10 +129,10 @@ std::vector<std::string> PredictionLines(const Prediction& prediction) {
 
 Json PredictionJson(const Scenario& s, const Prediction& prediction, const Json& plan) {
   Json json = {{"predict", 1},
-               {"scenario", s.name},
-               {"robot", s.robot_name},
-               {"planner", s.planner_name},
-               {"model", Sha256(s.files.Read(s.risk_model_file, 256u << 20))},
+               {"scenario", s.spec.name},
+               {"robot", s.spec.robot_name},
+               {"planner", s.spec.planner_name},
+               {"model", Sha256(s.files.Read(s.spec.risk_model_file, 256u << 20))},
                {"length_m", plan.at("length_m")},
                {"coverage", plan.at("coverage")},
                {"conditions", prediction.conditions},

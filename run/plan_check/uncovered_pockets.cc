@@ -195,7 +195,7 @@ std::vector<Patch> Patches(const Mask& cells, double least_half, std::int64_t& r
 class Finder {
  public:
   Finder(const Scenario& s, const PlanResult& plan, const SweepArea& area)
-      : known_(KnownFloor(s)), step_m_(s.robot.spec.step_m), area_(area), plan_(plan) {
+      : known_(KnownFloor(s.world)), step_m_(s.world.robot.spec.step_m), area_(area), plan_(plan) {
     free_ = FreeOn(known_);
     HazardMap bare = known_;
     bare.hazards.clear();

@@ -20,7 +20,7 @@ RareScore::RareScore(const std::string& mode, const Scenario& scenario) {
     if (mode == Name(static_cast<FailureMode>(m))) mode_ = static_cast<FailureMode>(m);
   }
   if (!mode_ && mode != kAny) throw InputError({"--mode", 0}, "", mode, "must be one of " + known);
-  const bool told = std::ranges::any_of(scenario.detectors, [&](const NamedDetector& d) {
+  const bool told = std::ranges::any_of(scenario.agents.detectors, [&](const NamedDetector& d) {
     return !mode_ || d.detector->mode() == *mode_;
   });
   if (!told)

@@ -79,17 +79,17 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
     if (observer) observer->OnWarning(line);
   };
   for (const std::string& warning : Warnings(base)) warn(warning);
-  if (!base.matrix.IsNull())
+  if (!base.text.matrix.IsNull())
     warn(
         "warning: `matrix` is passed over: this is the scenario itself (--set names what a variant "
         "changes)");
-  if (base.episode.drive == "none")
+  if (base.spec.episode.drive == "none")
     throw InputError({file.file().string(), 0}, "drive", "none",
                      "nothing that is not driven fails");
   const RareScore score(request.mode, base);
   const RareCoordinates coordinates(file, base);
-  const std::optional<RareGate> gate = RareGate::Read(base.gate, request.mode);
-  if (!base.gate.IsNull() && !gate)
+  const std::optional<RareGate> gate = RareGate::Read(base.text.gate, request.mode);
+  if (!base.text.gate.IsNull() && !gate)
     warn(
         "warning: the scenario's gate is a campaign's (`mode` is not rare), and is not judged "
         "here");

@@ -12,14 +12,16 @@ bool EpisodesCanDiffer(const ScenarioFile& file, const Scenario& s) {
 }
 
 bool NoiseCanDiffer(const Scenario& s) {
-  const ConfigNode* generate = s.site_node.Find("generate");
+  const ConfigNode* generate = s.text.site.Find("generate");
   if (generate != nullptr && DrawnAtRandom(*generate)) return true;
-  if (s.planner && s.planner->promises().uses_seed) return true;
+  if (s.agents.planner && s.agents.planner->promises().uses_seed) return true;
   if (const PlanCommand* program = ProgramToAsk(s); program && program->uses_seed) return true;
-  if (s.episode.drive != "none" && s.online && s.online->uses_seed()) return true;
-  if (s.episode.drive != "physics") return false;
-  return s.estimator->draws() ||
-         std::ranges::any_of(s.sensors, [](const NamedSensor& n) { return n.sensor->draws(); });
+  if (s.spec.episode.drive != "none" && s.agents.online && s.agents.online->uses_seed())
+    return true;
+  if (s.spec.episode.drive != "physics") return false;
+  return s.agents.estimator->draws() ||
+         std::ranges::any_of(s.agents.sensors,
+                             [](const NamedSensor& n) { return n.sensor->draws(); });
 }
 
 }  // namespace floorproof

@@ -5,19 +5,21 @@
 
 #include "env/core/levels.h"
 #include "env/core/ramps.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 
-inline HazardMap FloorFor(const Scenario& s, const HazardMap& map) {
-  const RobotSpec& robot = s.robot.spec;
-  return OpenByRamps(JudgedFor(SeenFrom(map, robot, s.start), robot), robot.step_m);
+inline HazardMap FloorFor(const World& world, const HazardMap& map) {
+  const RobotSpec& robot = world.robot.spec;
+  return OpenByRamps(JudgedFor(SeenFrom(map, robot, world.start), robot), robot.step_m);
 }
 
 // What planners, controllers and the check of a plan get: all that is known of it.
-inline HazardMap KnownFloor(const Scenario& s) { return FloorFor(s, KnownPart(s.site.map)); }
+inline HazardMap KnownFloor(const World& world) {
+  return FloorFor(world, KnownPart(world.site.map));
+}
 
 // With what is not known: what coverage and drawn maps are held against.
-inline HazardMap TrueFloor(const Scenario& s) { return FloorFor(s, s.site.map); }
+inline HazardMap TrueFloor(const World& world) { return FloorFor(world, world.site.map); }
 
 }  // namespace floorproof

@@ -37,9 +37,10 @@ ConfigNode WithPlugin(ConfigNode node, Configurable& plugin) {
 
 ConfigNode Robot(const Scenario& s, const fs::path& folder) {
   const bool bundled =
-      std::ranges::any_of(Robots(), [&](const auto& r) { return r.name == s.robot_name; });
-  return WithParams(Named("name", bundled ? s.robot_name : PathFrom(folder, s.robot_file).string()),
-                    s.robot_changes);
+      std::ranges::any_of(Robots(), [&](const auto& r) { return r.name == s.spec.robot_name; });
+  return WithParams(
+      Named("name", bundled ? s.spec.robot_name : PathFrom(folder, s.spec.robot_file).string()),
+      s.spec.robot_changes);
 }
 
 ConfigNode Start(const Pose2& start) {
@@ -59,14 +60,14 @@ ConfigNode Goal(const Vec2& goal) {
 
 ConfigNode SensorsOf(const Scenario& s) {
   ConfigNode node = ConfigNode::Map();
-  for (const NamedSensor& sensor : s.sensors)
+  for (const NamedSensor& sensor : s.agents.sensors)
     if (!sensor.implied) node.Add(sensor.name, WithPlugin(ConfigNode::Map(), *sensor.sensor));
   return node;
 }
 
 ConfigNode Failures(const Scenario& s) {
   ConfigNode node = ConfigNode::Map();
-  for (const auto& [name, detector] : s.detectors)
+  for (const auto& [name, detector] : s.agents.detectors)
     node.Add(name, WithPlugin(ConfigNode::Map(), *detector));
   return node;
 }
@@ -74,7 +75,7 @@ ConfigNode Failures(const Scenario& s) {
 // Whether variants or draws set one of these keys: what follows from their values must then not be
 // stated.
 bool Vary(const Scenario& s, const std::set<std::string>& keys) {
-  for (const ConfigNode* node : {&s.randomise, &s.matrix})
+  for (const ConfigNode* node : {&s.text.randomise, &s.text.matrix})
     for (const auto& [path, value] : node->entries) {
       if (keys.contains(path)) return true;
       for (const ConfigNode& item : value.items)
@@ -93,16 +94,17 @@ std::string NameOr(const fs::path& file, const fs::path& bundled_file, std::stri
 // Its planner with all keys. Where variants have others, which need not know them, those alone that
 // are not as by default.
 ConfigNode PlannerKeys(const Scenario& s, const fs::path& folder) {
-  ConfigNode node = WithPlugin(Named("planner", s.planner_name), *PlannerOf(s));
-  if (!s.places_file.empty())
-    *node.Find("samples") = Named("file", PathFrom(folder, s.places_file).string());
+  ConfigNode node = WithPlugin(Named("planner", s.spec.planner_name), *PlannerOf(s));
+  if (!s.spec.places_file.empty())
+    *node.Find("samples") = Named("file", PathFrom(folder, s.spec.places_file).string());
   // A file of places stands alone; what variants without one have is as by default.
   if (Vary(s, {"plan.samples", "plan.samples.file"})) node.Remove("samples");
   if (!Vary(s, {"plan.planner"})) return node;
   const auto defaults = [&](auto planners) {
-    return WithPlugin(ConfigNode::Map(), *MakePlugin(planners, s.planner_name, "plan.planner"));
+    return WithPlugin(ConfigNode::Map(),
+                      *MakePlugin(planners, s.spec.planner_name, "plan.planner"));
   };
-  const ConfigNode usual = s.online ? defaults(OnlinePlanners()) : defaults(Planners());
+  const ConfigNode usual = s.agents.online ? defaults(OnlinePlanners()) : defaults(Planners());
   std::erase_if(node.entries, [&](const auto& entry) {
     const ConfigNode* other = usual.Find(entry.first);
     return other != nullptr && WriteYaml(*other) == WriteYaml(entry.second);
@@ -113,9 +115,9 @@ ConfigNode PlannerKeys(const Scenario& s, const fs::path& folder) {
 // Who makes its plan, with all keys.
 ConfigNode Plan(const Scenario& s, const fs::path& folder, const fs::path& made) {
   if (PlannerOf(s) != nullptr) return PlannerKeys(s, folder);
-  if (s.plan_command)
-    return WritePlanCommand(*s.plan_command, folder, made.empty() ? s.plan_file : made);
-  return Named("file", PathFrom(folder, s.plan_file).string());
+  if (s.spec.plan_command)
+    return WritePlanCommand(*s.spec.plan_command, folder, made.empty() ? s.spec.plan_file : made);
+  return Named("file", PathFrom(folder, s.spec.plan_file).string());
 }
 
 // Whether a scenario names it by a word: it comes with the program.
@@ -140,7 +142,8 @@ std::vector<fs::path> ListedFiles(const Scenario& s, const std::vector<fs::path>
   const bool site_is_named = Vary(s, {"site"});
   for (const auto& files : {FilesRead(s), more})
     for (const fs::path& file : files)
-      if (file != s.file && (file != s.site_file || site_is_named)) listed.push_back(file);
+      if (file != s.spec.file && (file != s.spec.site_file || site_is_named))
+        listed.push_back(file);
   return listed;
 }
 
@@ -189,67 +192,69 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
                              const std::vector<fs::path>& more, const fs::path& made) {
   ConfigNode root = ConfigNode::Map();
   root.Add("scenario", ConfigNode::Scalar("1"));
-  root.Add("name", ConfigNode::Scalar(s.name, true));
-  root.Add("site", ResolveSite(s.site_node, s.site_folder, folder));
-  root.Find("site")->Add("name", ConfigNode::Scalar(s.site.map.name, true));
+  root.Add("name", ConfigNode::Scalar(s.spec.name, true));
+  root.Add("site", ResolveSite(s.text.site, s.text.site_folder, folder));
+  root.Find("site")->Add("name", ConfigNode::Scalar(s.world.site.map.name, true));
   root.Add("robot", Robot(s, folder));
   // What the site or the robot would say otherwise is stated where that is the same in all
   // episodes.
   const auto stated = [&](const char* key, bool varies) {
-    return s.written.contains(key) || !varies;
+    return s.spec.written.contains(key) || !varies;
   };
-  const bool site_varies = Vary(s, {"site"}) || s.site_node.Find("generate") != nullptr;
+  const bool site_varies = Vary(s, {"site"}) || s.text.site.Find("generate") != nullptr;
   const bool robot_varies = Vary(s, {"robot", "robot.name"});
   if (stated("start", site_varies || Vary(s, {"site.start", "site.start.x_m", "site.start.y_m",
                                               "site.start.yaw_deg"})))
-    root.Add("start", Start(s.start));
-  if (s.goal &&
+    root.Add("start", Start(s.world.start));
+  if (s.world.goal &&
       stated("goal", site_varies || Vary(s, {"site.goal", "site.goal.x_m", "site.goal.y_m"})))
-    root.Add("goal", Goal(*s.goal));
+    root.Add("goal", Goal(*s.world.goal));
   if (!LeadsItself(s)) root.Add("plan", Plan(s, folder, made));
   if (AsksForRisk(s)) {
-    ConfigNode risk = Named("tables", NameOr(s.fmea_file, BundledTables(), kBundledTables, folder));
-    risk.Add("model",
-             ConfigNode::Scalar(
-                 s.risk_model_file.empty() ? "none" : PathFrom(folder, s.risk_model_file).string(),
-                 true));
-    root.Add("risk", WithParams(std::move(risk), s.risk));
+    ConfigNode risk =
+        Named("tables", NameOr(s.spec.fmea_file, BundledTables(), kBundledTables, folder));
+    risk.Add("model", ConfigNode::Scalar(s.spec.risk_model_file.empty()
+                                             ? "none"
+                                             : PathFrom(folder, s.spec.risk_model_file).string(),
+                                         true));
+    root.Add("risk", WithParams(std::move(risk), s.spec.risk));
   }
   if (stated("controller", robot_varies))
-    root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
-  root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));
-  if (!std::ranges::all_of(s.sensors, &NamedSensor::implied)) root.Add("sensors", SensorsOf(s));
+    root.Add("controller", WithPlugin(Named("name", s.spec.tracker_name), *s.agents.tracker));
+  root.Add("estimator", WithPlugin(Named("name", s.spec.estimator_name), *s.agents.estimator));
+  if (!std::ranges::all_of(s.agents.sensors, &NamedSensor::implied))
+    root.Add("sensors", SensorsOf(s));
   // One without a scan came with `react`, as it is by default; stated, it would ask for a lidar.
   const auto tells_scan = [](const NamedSensor& named) {
     return named.sensor->Fills() == Reading::kScan;
   };
-  if (s.mapper && std::ranges::any_of(s.sensors, tells_scan)) {
-    Mapper mapper = *s.mapper;
+  if (s.agents.mapper && std::ranges::any_of(s.agents.sensors, tells_scan)) {
+    Mapper mapper = *s.agents.mapper;
     root.Add("mapper", WithPlugin(ConfigNode::Map(), mapper));
   }
-  if (s.recovery) root.Add("react", WithParams(ConfigNode::Map(), *s.recovery));
-  if (s.safety) {
+  if (s.agents.recovery) root.Add("react", WithParams(ConfigNode::Map(), *s.agents.recovery));
+  if (s.agents.safety) {
     root.Add("mission",
-             ConfigNode::Scalar(NameOr(s.mission_file, BundledMission(), kBundledMission, folder),
-                                true));
-    root.Add("safety", WriteSafety(*s.safety));
+             ConfigNode::Scalar(
+                 NameOr(s.spec.mission_file, BundledMission(), kBundledMission, folder), true));
+    root.Add("safety", WriteSafety(*s.agents.safety));
   }
-  if (!s.faults.empty()) root.Add("faults", WriteFaults(s.faults));
-  if (s.dirt) root.Add("dirt", WriteDirt(*s.dirt));
+  if (!s.world.faults.empty()) root.Add("faults", WriteFaults(s.world.faults));
+  if (s.world.dirt) root.Add("dirt", WriteDirt(*s.world.dirt));
   root.Add("failures", Failures(s));
-  root = WithParams(std::move(root), s.episode);
+  root = WithParams(std::move(root), s.spec.episode);
   if (stated("battery", robot_varies))
-    root.Add("battery", WithParams(ConfigNode::Map(), s.battery));
-  root.Add("physics", WithParams(ConfigNode::Map(), s.physics));
-  root.Add("video", WithParams(ConfigNode::Map(), s.video));
-  ConfigNode randomise = s.randomise;
+    root.Add("battery", WithParams(ConfigNode::Map(), s.world.robot.spec.battery));
+  root.Add("physics", WithParams(ConfigNode::Map(), s.world.physics));
+  root.Add("video", WithParams(ConfigNode::Map(), s.spec.video));
+  ConfigNode randomise = s.text.randomise;
   if (root.Find("site")->Find("generate") == nullptr) randomise = WithoutGenerate(randomise);
   if (randomise.entries.empty()) randomise = {};
   for (const auto& [key, written] : {std::pair("randomise", &std::as_const(randomise)),
-                                     {"matrix", &s.matrix},
-                                     {"gate", &s.gate}})
-    if (!written->IsNull()) root.Add(key, Rebased(*written, s.file.parent_path(), folder));
-  if (s.sampling == Sampling::kLowDiscrepancy)
+                                     {"matrix", &s.text.matrix},
+                                     {"gate", &s.text.gate}})
+    if (!written->IsNull()) root.Add(key, Rebased(*written, s.spec.file.parent_path(), folder));
+  if (s.spec.sampling == Sampling::kLowDiscrepancy)
     root.Add("sampling", ConfigNode::Scalar("low_discrepancy"));
   root.Add("files", Files(s, folder, more));
   const char* except = Vary(s, {"plan.planner"})

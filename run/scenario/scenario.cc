@@ -272,22 +272,24 @@ void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, 
                                 Scenario& s) const {
   const ConfigNode* node = root.Find("site");
   if (node == nullptr) throw InputError(root.mark, "site", "", "the key is missing");
-  const fs::path folder = s.file.parent_path();
+  const fs::path folder = s.spec.file.parent_path();
   if (node->IsMap()) {
-    s.site_node = *node;
-    s.site_folder = folder;
+    s.text.site = *node;
+    s.text.site_folder = folder;
   } else {
-    s.site_file = NamedFile(folder, *node, "site", files_);
-    s.site_node = SiteTree(s.site_file);
-    s.site_folder = s.site_file.parent_path();
+    s.spec.site_file = NamedFile(folder, *node, "site", files_);
+    s.text.site = SiteTree(s.spec.site_file);
+    s.text.site_folder = s.spec.site_file.parent_path();
   }
-  ApplyToSite({"", overrides_}, folder, s.site_node);
-  ApplyToSite(changes, folder, s.site_node);
-  ConfigNode drawn = GeneratedSite(s.site_node, static_cast<std::uint64_t>(seed_), s.episode_id);
-  s.site = ReadSite(drawn, s.site_folder, files_);
-  if (episode) s.site_node = std::move(drawn);  // else what is random about it stays so
-  if (s.site.map.name.empty())
-    s.site.map.name = s.site_file.empty() ? s.name : Printable(s.site_file.stem().string());
+  ApplyToSite({"", overrides_}, folder, s.text.site);
+  ApplyToSite(changes, folder, s.text.site);
+  ConfigNode drawn =
+      GeneratedSite(s.text.site, static_cast<std::uint64_t>(seed_), s.spec.episode_id);
+  s.world.site = ReadSite(drawn, s.text.site_folder, files_);
+  if (episode) s.text.site = std::move(drawn);  // else what is random about it stays so
+  if (s.world.site.map.name.empty())
+    s.world.site.map.name =
+        s.spec.site_file.empty() ? s.spec.name : Printable(s.spec.site_file.stem().string());
 }
 
 std::string ScenarioFile::name() const {
@@ -369,27 +371,28 @@ Scenario ScenarioFile::ReadDrawn(std::uint64_t episode, const Drawn& drawn) cons
 Scenario ScenarioFile::ReadWith(std::optional<std::uint64_t> episode, const Drawn* drawn,
                                 const Variant& variant, const Variant& forced) const {
   Scenario s;
-  s.file = file_;
+  s.spec.file = file_;
   s.files = files_;
-  s.episode_id = episode.value_or(0);
+  s.spec.episode_id = episode.value_or(0);
   Variant changes = variant;
   if (drawn != nullptr) {
-    s.drawn = *drawn;
-    changes.overrides.insert(changes.overrides.end(), s.drawn.begin(), s.drawn.end());
+    s.spec.drawn = *drawn;
+    changes.overrides.insert(changes.overrides.end(), s.spec.drawn.begin(), s.spec.drawn.end());
   }
   changes.overrides.insert(changes.overrides.end(), forced.overrides.begin(),
                            forced.overrides.end());
   ConfigNode root = root_;
   Apply(changes, root);
   RefuseUnknownKeys(root, "", ScenarioKeys());  // a variant's too
-  s.name = name();
-  s.sampling = sampling_;
-  for (auto [key, node] :
-       {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
+  s.spec.name = name();
+  s.spec.sampling = sampling_;
+  for (auto [key, node] : {std::pair("randomise", &s.text.randomise),
+                           {"matrix", &s.text.matrix},
+                           {"gate", &s.text.gate}})
     if (const ConfigNode* written = root.Find(key)) *node = *written;
-  for (const auto& entry : root.entries) s.written.insert(entry.first);
+  for (const auto& entry : root.entries) s.spec.written.insert(entry.first);
   ReadTopKeys(root, s);
-  s.episode.episode = static_cast<int>(s.episode_id);
+  s.spec.episode.episode = static_cast<int>(s.spec.episode_id);
   ReadSitePart(root, changes, episode.has_value(), s);
   ReadParts(root, s);
   return s;
@@ -401,12 +404,12 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
 }
 
 Configurable* PlannerOf(const Scenario& s) {
-  if (s.planner) return s.planner.get();
-  return s.online.get();
+  if (s.agents.planner) return s.agents.planner.get();
+  return s.agents.online.get();
 }
 
 const PlanCommand* ProgramToAsk(const Scenario& s) {
-  return s.plan_command && s.plan_file.empty() ? &*s.plan_command : nullptr;
+  return s.spec.plan_command && s.spec.plan_file.empty() ? &*s.spec.plan_command : nullptr;
 }
 
 std::string ProgramAnnounced(const Scenario& s) {
@@ -423,32 +426,33 @@ void RefuseProgram(const Scenario& s) {
 }
 
 bool LeadsItself(const Scenario& s) {
-  return !s.planner && !s.online && !s.plan_command && s.plan_file.empty();
+  return !s.agents.planner && !s.agents.online && !s.spec.plan_command && s.spec.plan_file.empty();
 }
 
 bool AsksForRisk(const Scenario& s) {
-  return s.written.contains("risk") || (s.planner && s.planner->promises().needs_risk);
+  return s.spec.written.contains("risk") ||
+         (s.agents.planner && s.agents.planner->promises().needs_risk);
 }
 
 std::vector<fs::path> FilesRead(const Scenario& s) {
-  std::vector<fs::path> files = s.site.files_read;
-  if (!s.site_file.empty()) files.insert(files.begin(), s.site_file);
-  files.push_back(s.robot_file);
-  if (!s.robot.files.empty())
-    files.insert(files.end(), s.robot.files.begin() + 1, s.robot.files.end());
-  files.push_back(s.fmea_file);
-  if (!s.risk_model_file.empty()) files.push_back(s.risk_model_file);
-  if (s.plan_command)
-    files.insert(files.end(), s.plan_command->files.begin(), s.plan_command->files.end());
-  if (!s.plan_file.empty()) files.push_back(s.plan_file);
-  if (!s.places_file.empty()) files.push_back(s.places_file);
-  if (!s.mission_file.empty()) files.push_back(s.mission_file);
+  std::vector<fs::path> files = s.world.site.files_read;
+  if (!s.spec.site_file.empty()) files.insert(files.begin(), s.spec.site_file);
+  files.push_back(s.spec.robot_file);
+  if (!s.world.robot.files.empty())
+    files.insert(files.end(), s.world.robot.files.begin() + 1, s.world.robot.files.end());
+  files.push_back(s.spec.fmea_file);
+  if (!s.spec.risk_model_file.empty()) files.push_back(s.spec.risk_model_file);
+  if (s.spec.plan_command)
+    files.insert(files.end(), s.spec.plan_command->files.begin(), s.spec.plan_command->files.end());
+  if (!s.spec.plan_file.empty()) files.push_back(s.spec.plan_file);
+  if (!s.spec.places_file.empty()) files.push_back(s.spec.places_file);
+  if (!s.spec.mission_file.empty()) files.push_back(s.spec.mission_file);
   return files;
 }
 
 std::vector<fs::path> InputsOf(const Scenario& s) {
   std::vector<fs::path> files = FilesRead(s);
-  files.push_back(s.file);
+  files.push_back(s.spec.file);
   return files;
 }
 

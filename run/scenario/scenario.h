@@ -13,84 +13,27 @@
 
 #include "base/config.h"
 #include "base/input_files.h"
-#include "controllers/estimator.h"
-#include "controllers/mapper.h"
-#include "controllers/recovery.h"
-#include "controllers/supervision/safety_plan.h"
-#include "controllers/tracker.h"
-#include "env/failures/detector.h"
-#include "env/faults/schedule.h"
-#include "env/map/site.h"
-#include "env/scene/robot_model.h"
-#include "env/scene/scene.h"
-#include "env/sensors/sensor.h"
-#include "planners/online/online_planner.h"
-#include "planners/planner.h"
-#include "planners/risk/rate_model.h"
-#include "planners/risk/risk_map.h"
-#include "run/scenario/draws.h"
-#include "run/scenario/floor_dirt.h"
+#include "run/scenario/agents.h"
 #include "run/scenario/matrix.h"
-#include "run/scenario/plan_command.h"
-#include "run/scenario/scenario_params.h"
+#include "run/scenario/scenario_spec.h"
 #include "run/scenario/trust.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 
+// What a resolved scenario repeats as it was written.
+struct ScenarioText {
+  ConfigNode randomise, matrix, gate;  // null: not there
+  ConfigNode site;                     // overrides and draws applied
+  std::filesystem::path site_folder;   // that its paths are relative to
+};
+
 struct Scenario {
-  std::filesystem::path file;
+  ScenarioSpec spec;
+  World world;
+  Agents agents;
+  ScenarioText text;
   InputFiles files;  // what it was read from
-  std::uint64_t episode_id = 0;
-  Drawn drawn;                         // what `randomise` drew for it
-  std::set<std::string> written;       // the keys at its top
-  ConfigNode randomise, matrix, gate;  // as written; null: not there
-  Sampling sampling = Sampling::kIndependent;
-  std::string name;  // the key `name`, else the file's stem
-  Site site;
-  std::filesystem::path site_file;    // empty: the site stands in the scenario
-  ConfigNode site_node;               // the site's tree, overrides applied
-  std::filesystem::path site_folder;  // that its paths are relative to
-
-  std::string robot_name;
-  RobotChanges robot_changes;
-  std::filesystem::path robot_file;
-  RobotModel robot;
-
-  Pose2 start;
-  std::optional<Vec2> goal;
-
-  // One of four makes the plan; or the mission says where to drive.
-  std::string planner_name;  // empty: plan_file
-  std::unique_ptr<Planner> planner;
-  std::unique_ptr<OnlinePlanner> online;  // on the way, as the floor becomes known
-  std::optional<PlanCommand>
-      plan_command;  // a program's; plan_file is what it made once, if it has
-  std::filesystem::path plan_file;
-  Path user_plan;                     // what it holds, or the mission's places
-  std::filesystem::path places_file;  // that the planner is to visit; empty: it finds its own
-  std::vector<Vec2> places;           // what it holds, p_W
-
-  std::filesystem::path fmea_file;
-  FmeaTables fmea;
-  RiskParams risk;
-  std::filesystem::path risk_model_file;  // empty: none
-  std::shared_ptr<const RiskModel> risk_model;
-
-  std::string tracker_name, estimator_name;
-  std::unique_ptr<Tracker> tracker;
-  std::unique_ptr<Estimator> estimator;
-  std::vector<NamedSensor> sensors;        // those written, and those that a part of it needs
-  std::optional<Mapper> mapper;            // none: no map is drawn
-  std::optional<RecoveryParams> recovery;  // none: the plan is driven blindly
-  std::optional<SafetyPlan> safety;        // none: nobody watches it
-  std::filesystem::path mission_file;      // of which that is; empty: none
-  std::vector<ScheduledFault> faults;      // what breaks on the robot
-  std::optional<FloorDirt> dirt;           // none: nobody asks for it
-  std::vector<NamedDetector> detectors;
-  PhysicsParams physics;
-  Battery battery;  // its voltage set, if only by the robot
-  EpisodeParams episode;
-  VideoParams video;
 };
 
 struct Override {

@@ -50,39 +50,41 @@ void ReadGroup(const ConfigNode& root, const std::string& key, Params& params) {
 
 // A plan names shapes before its robot is known.
 void CheckShapes(const Scenario& s, const std::vector<int>& plan_lines) {
-  for (std::size_t i = 0; i < s.user_plan.size(); ++i) {
-    const std::string& shape = s.user_plan[i].shape;
-    if (!shape.empty() && FindShape(s.robot.spec, shape) < 0)
-      RefuseShape(s.robot.spec, {s.plan_file.string(), plan_lines[i]}, "shape", shape);
+  for (std::size_t i = 0; i < s.spec.user_plan.size(); ++i) {
+    const std::string& shape = s.spec.user_plan[i].shape;
+    if (!shape.empty() && FindShape(s.world.robot.spec, shape) < 0)
+      RefuseShape(s.world.robot.spec, {s.spec.plan_file.string(), plan_lines[i]}, "shape", shape);
   }
 }
 
 void ReadRobotPart(const ConfigNode& root, const std::vector<int>& plan_lines, Scenario& s) {
   const NamedPlugin named = ReadNamed(root, "robot", "name", "");
   if (named.name.empty()) throw InputError(named.mark, "robot", "", "the key is missing");
-  s.robot_name = named.name;
-  s.robot_file = FindRobotFile(named.name, named.mark);
-  if (s.robot_file == named.name) {  // not a bundled one
+  s.spec.robot_name = named.name;
+  s.spec.robot_file = FindRobotFile(named.name, named.mark);
+  if (s.spec.robot_file == named.name) {  // not a bundled one
     ConfigNode path = ConfigNode::Scalar(named.name);
     path.mark = named.mark;
-    s.robot_file = NamedFile(s.file.parent_path(), path, "robot", s.files);
+    s.spec.robot_file = NamedFile(s.spec.file.parent_path(), path, "robot", s.files);
   }
-  ReadParams(named.params, "robot.", [&](ParamVisitor& v) { s.robot_changes.Visit(v); }, {"name"});
-  ReadGroup(root, "battery", s.battery);
-  s.robot_changes.battery_v = s.battery.voltage_v;
-  const bool folds = std::ranges::any_of(s.user_plan, [&](const Waypoint& w) {
-    return !w.shape.empty() && w.shape != s.robot_changes.shape;
+  ReadParams(named.params, "robot.", [&](ParamVisitor& v) { s.spec.robot_changes.Visit(v); },
+             {"name"});
+  Battery battery;
+  ReadGroup(root, "battery", battery);
+  s.spec.robot_changes.battery_v = battery.voltage_v;
+  const bool folds = std::ranges::any_of(s.spec.user_plan, [&](const Waypoint& w) {
+    return !w.shape.empty() && w.shape != s.spec.robot_changes.shape;
   });
-  s.robot =
-      ReadRobot(s.robot_file, s.robot_changes, folds ? Blocks::kHinged : Blocks::kLocked, s.files);
-  s.battery.voltage_v = s.robot.spec.battery.voltage_v;
-  s.robot.spec.battery = s.battery;
+  s.world.robot = ReadRobot(s.spec.robot_file, s.spec.robot_changes,
+                            folds ? Blocks::kHinged : Blocks::kLocked, s.files);
+  battery.voltage_v = s.world.robot.spec.battery.voltage_v;
+  s.world.robot.spec.battery = battery;
   CheckShapes(s, plan_lines);
-  if (s.episode.wheels != "rollers") return;
-  if (!HasMecanumWheels(s.robot.spec))
-    throw InputError(MarkOf(root, "wheels"), "wheels", s.episode.wheels,
-                     "must be ideal: the wheels of " + s.robot_name + " have no rollers");
-  s.robot = WithRollerWheels(s.robot);
+  if (s.spec.episode.wheels != "rollers") return;
+  if (!HasMecanumWheels(s.world.robot.spec))
+    throw InputError(MarkOf(root, "wheels"), "wheels", s.spec.episode.wheels,
+                     "must be ideal: the wheels of " + s.spec.robot_name + " have no rollers");
+  s.world.robot = WithRollerWheels(s.world.robot);
 }
 
 // What a message about a place is about: what was set of it, else what was drawn, which both stand
@@ -90,10 +92,10 @@ void ReadRobotPart(const ConfigNode& root, const std::vector<int>& plan_lines, S
 SourceMark MarkOfPlace(const ConfigNode& root, const std::string& key, const Scenario& s) {
   const SourceMark mark = MarkOf(root, key);
   const ConfigNode* place = root.Find(key);
-  if (place == nullptr || mark.file != s.file.string()) return mark;
+  if (place == nullptr || mark.file != s.spec.file.string()) return mark;
   for (const auto& [name, part] : place->entries)
     if (part.mark.file != mark.file) return part.mark;
-  for (const auto& [path, value] : s.drawn)
+  for (const auto& [path, value] : s.spec.drawn)
     if (path == key || path.starts_with(key + ".")) return value.mark;
   return mark;
 }
@@ -116,22 +118,24 @@ Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
 
 void CheckStart(const ConfigNode& root, const Scenario& s) {
   const SourceMark mark = MarkOfPlace(root, "start", s);
-  const Cell cell = s.site.map.frame.ToCell(s.start.p());
-  const std::string value = FormatDouble(s.start.x_m) + ", " + FormatDouble(s.start.y_m);
-  if (!s.site.map.frame.Inside(cell)) throw InputError(mark, "start", value, "lies off the map");
-  if (s.site.map.IsWall(cell))
+  const Cell cell = s.world.site.map.frame.ToCell(s.world.start.p());
+  const std::string value =
+      FormatDouble(s.world.start.x_m) + ", " + FormatDouble(s.world.start.y_m);
+  if (!s.world.site.map.frame.Inside(cell))
+    throw InputError(mark, "start", value, "lies off the map");
+  if (s.world.site.map.IsWall(cell))
     throw InputError(
         mark, "start", value,
         "lies in a wall, cell (" + std::to_string(cell.ix) + ", " + std::to_string(cell.iy) + ")");
-  const Standing stands = StandAt(s.site.map, s.robot.spec, s.start);
+  const Standing stands = StandAt(s.world.site.map, s.world.robot.spec, s.world.start);
   if (!stands.obstruction.empty())
     throw InputError(mark, "start", value,
-                     s.robot_name + " at this heading " + stands.why +
+                     s.spec.robot_name + " at this heading " + stands.why +
                          "; it must stand on one floor, clear of all solids");
 }
 
 std::optional<Vec2> ReadGoal(const ConfigNode& root, const Scenario& s) {
-  const HazardMap& map = s.site.map;
+  const HazardMap& map = s.world.site.map;
   const ConfigNode* node = root.Find("goal");
   if (node == nullptr) return map.goal;
   Vec2 goal = map.goal.value_or(Vec2::Zero());
@@ -152,8 +156,8 @@ void ReadPlacesPart(ConfigNode& plan, Scenario& s) {
       throw InputError(value.mark, "plan.samples." + key, value.scalar,
                        "stands beside plan.samples.file: places are either found or read from a "
                        "file; take one of them away");
-  s.places_file = NamedFile(s.file.parent_path(), *file, "plan.samples.file", s.files);
-  s.places = ReadPlaces(s.places_file, s.site.map.frame, s.files);
+  s.spec.places_file = NamedFile(s.spec.file.parent_path(), *file, "plan.samples.file", s.files);
+  s.spec.places = ReadPlaces(s.spec.places_file, s.world.site.map.frame, s.files);
   plan.Remove("samples");
 }
 
@@ -167,24 +171,24 @@ fs::path BundledOrNamed(const ConfigNode* node, const std::string& key, std::str
   if (!name.ends_with(".yaml"))
     throw InputError(node->mark, key, name,
                      "must be " + std::string(bundled) + ", or a .yaml file");
-  return NamedFile(s.file.parent_path(), *node, key, s.files);
+  return NamedFile(s.spec.file.parent_path(), *node, key, s.files);
 }
 
 void ReadSafetyPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode* safety = Written(root, "safety");
   const ConfigNode* mission = Written(root, "mission");
   if (safety == nullptr && mission == nullptr) return;
-  if (s.episode.drive == "cells")
+  if (s.spec.episode.drive == "cells")
     throw InputError(
         (safety != nullptr ? safety : mission)->mark, safety != nullptr ? "safety" : "mission", "",
         "is for drives through physics; with `drive: cells` nothing is sensed that could "
         "be watched");
-  s.mission_file = BundledOrNamed(mission, "mission", kBundledMission, BundledMission(), s);
-  const ConfigNode tree = ReadYamlFile(s.mission_file, s.files, "mission");
-  s.safety = ReadSafety(safety, tree);
-  s.safety->helped = s.episode.on_failure == "assist";
-  const HazardMap& map = s.site.map;
-  for (const auto& [line, mark, skill] : LinesOf(s.safety->mission, tree)) {
+  s.spec.mission_file = BundledOrNamed(mission, "mission", kBundledMission, BundledMission(), s);
+  const ConfigNode tree = ReadYamlFile(s.spec.mission_file, s.files, "mission");
+  s.agents.safety = ReadSafety(safety, tree);
+  s.agents.safety->helped = s.spec.episode.on_failure == "assist";
+  const HazardMap& map = s.world.site.map;
+  for (const auto& [line, mark, skill] : LinesOf(s.agents.safety->mission, tree)) {
     const Cell cell = map.frame.ToCell(line.to_W);
     if (const bool off = !map.frame.Inside(cell); off || map.IsWall(cell))
       throw InputError(mark, "skills." + skill,
@@ -193,29 +197,29 @@ void ReadSafetyPart(const ConfigNode& root, Scenario& s) {
     Waypoint waypoint;
     waypoint.p_W = line.to_W;
     waypoint.speed_mps = line.speed_mps.value_or(0);
-    s.user_plan.push_back(waypoint);
+    s.spec.user_plan.push_back(waypoint);
   }
 }
 
 // Returns the line of each waypoint of a user's plan.
 std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
   std::vector<int> lines;
-  if (!s.user_plan.empty()) {
+  if (!s.spec.user_plan.empty()) {
     if (const ConfigNode* plan = root.Find("plan"))
       throw InputError(plan->mark, "plan", "",
                        "stands beside a mission that says itself where to drive; take one of them "
                        "away");
-    s.planner_name = "mission";
-    lines.assign(s.user_plan.size(), 0);
+    s.spec.planner_name = "mission";
+    lines.assign(s.spec.user_plan.size(), 0);
     return lines;
   }
   const ConfigNode* node = root.Find("plan");
   if (node && node->IsMap() && node->Find("command") != nullptr) {
-    s.plan_command = ReadPlanCommand(*node, s.file.parent_path(), s.files);
-    s.planner_name = s.plan_command->name;
+    s.spec.plan_command = ReadPlanCommand(*node, s.spec.file.parent_path(), s.files);
+    s.spec.planner_name = s.spec.plan_command->name;
     if (const ConfigNode* made = node->Find("made")) {
-      s.plan_file = NamedFile(s.file.parent_path(), *made, "plan.made", s.files);
-      s.user_plan = ReadPlan(s.plan_file, s.site.map.frame, &lines, s.files);
+      s.spec.plan_file = NamedFile(s.spec.file.parent_path(), *made, "plan.made", s.files);
+      s.spec.user_plan = ReadPlan(s.spec.plan_file, s.world.site.map.frame, &lines, s.files);
     }
     return lines;
   }
@@ -225,36 +229,37 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
                        "stands beside plan.file: a plan is either made by a planner or read from a "
                        "file; take one of them away");
     RefuseUnknownKeys(*node, "plan.", {"file"});
-    s.plan_file = NamedFile(s.file.parent_path(), *file, "plan.file", s.files);
-    s.user_plan = ReadPlan(s.plan_file, s.site.map.frame, &lines, s.files);
+    s.spec.plan_file = NamedFile(s.spec.file.parent_path(), *file, "plan.file", s.files);
+    s.spec.user_plan = ReadPlan(s.spec.plan_file, s.world.site.map.frame, &lines, s.files);
     return lines;
   }
   NamedPlugin named = ReadNamed(root, "plan", "planner", "boustrophedon");
-  s.planner_name = named.name;
+  s.spec.planner_name = named.name;
   const std::vector<std::string> online = PluginNames(OnlinePlanners());
   if (std::ranges::find(online, named.name) != online.end())
-    s.online = MakePlugin(OnlinePlanners(), named.name, "plan.planner", named.mark);
+    s.agents.online = MakePlugin(OnlinePlanners(), named.name, "plan.planner", named.mark);
   else
-    s.planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark, online);
-  if (s.planner && s.planner->promises().visits_places) ReadPlacesPart(named.params, s);
+    s.agents.planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark, online);
+  if (s.agents.planner && s.agents.planner->promises().visits_places)
+    ReadPlacesPart(named.params, s);
   ReadParams(named.params, "plan.", *PlannerOf(s), {"planner"});
   return lines;
 }
 
 // What a planner of unknown floors and the way it is driven must have in common.
 void CheckOnline(const ConfigNode& root, const Scenario& s) {
-  const bool cells = s.episode.drive == "cells";
-  if (cells && !s.online)
+  const bool cells = s.spec.episode.drive == "cells";
+  if (cells && !s.agents.online)
     throw InputError(MarkOf(root, "drive"), "drive", "cells",
                      "is for planners of unknown floors, which `floorproof list planners` names");
-  if (!s.online) return;
-  if (!cells && s.robot.spec.turn_radius_m > 0)
-    throw InputError(MarkOf(root, "plan"), "plan", s.planner_name,
-                     "plans on the way, by turns on the spot, which " + s.robot_name +
+  if (!s.agents.online) return;
+  if (!cells && s.world.robot.spec.turn_radius_m > 0)
+    throw InputError(MarkOf(root, "plan"), "plan", s.spec.planner_name,
+                     "plans on the way, by turns on the spot, which " + s.spec.robot_name +
                          " cannot make; take a planner of known floors");
-  const OnlineParams& asked = s.online->params();
-  const double cell_m = s.site.map.frame.cell_m;
-  const double step_m = asked.step_m.value_or(cells ? cell_m : s.robot.spec.tool_width_m);
+  const OnlineParams& asked = s.agents.online->params();
+  const double cell_m = s.world.site.map.frame.cell_m;
+  const double step_m = asked.step_m.value_or(cells ? cell_m : s.world.robot.spec.tool_width_m);
   const auto mark = [&](const char* key) { return MarkOf(*root.Find("plan"), key); };
   if (cells && std::abs(step_m - cell_m) > 1e-9 * cell_m)
     throw InputError(mark("step_m"), "plan.step_m", FormatDouble(step_m),
@@ -275,11 +280,11 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
 // clearance; a prediction reports a battery that is not full as left out
 // (run/plan_check/prediction.h).
 std::string ChangedBeyondRates(const Scenario& s) {
-  const RobotChanges& changes = s.robot_changes;
+  const RobotChanges& changes = s.spec.robot_changes;
   if (changes.roller_radius_m) return "robot.roller_radius_m";
   if (!changes.wheel_radius_m && changes.shape.empty() && !changes.battery_v) return "";
-  const RobotSpec& changed = s.robot.spec;
-  const RobotSpec own = ReadRobot(s.robot_file, {}, Blocks::kLocked, s.files).spec;
+  const RobotSpec& changed = s.world.robot.spec;
+  const RobotSpec own = ReadRobot(s.spec.robot_file, {}, Blocks::kLocked, s.files).spec;
   for (std::size_t i = 0; i < own.wheels.size(); ++i)
     if (own.wheels[i].radius_m != changed.wheels[i].radius_m) return "robot.wheel_radius_m";
   if (own.shape != changed.shape) return "robot.shape";
@@ -293,8 +298,9 @@ std::string ChangedBeyondRates(const Scenario& s) {
 // Whose rates they are is said by its model's hash; robots of an earlier version, whose model is
 // measured anew, are others.
 void RequireModelOf(const RiskModel& model, const Scenario& s, const ConfigNode& named) {
-  const RobotSpec& robot = s.robot.spec;
-  if (model.robot.name == robot.name && model.robot.model == ModelHash(s.robot.files, s.files)) {
+  const RobotSpec& robot = s.world.robot.spec;
+  if (model.robot.name == robot.name &&
+      model.robot.model == ModelHash(s.world.robot.files, s.files)) {
     if (const std::string changed = ChangedBeyondRates(s); !changed.empty())
       throw InputError(named.mark, "risk.model", named.scalar,
                        "was measured of " + robot.name +
@@ -312,44 +318,44 @@ void RequireModelOf(const RiskModel& model, const Scenario& s, const ConfigNode&
 void ReadRisk(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = Written(root, "risk");
   if (node != nullptr)
-    ReadParams(*node, "risk.", [&](ParamVisitor& v) { s.risk.Visit(v); }, {"tables", "model"});
+    ReadParams(*node, "risk.", [&](ParamVisitor& v) { s.spec.risk.Visit(v); }, {"tables", "model"});
   const ConfigNode* tables = node != nullptr ? node->Find("tables") : nullptr;
-  s.fmea_file = BundledOrNamed(tables, "risk.tables", kBundledTables, BundledTables(), s);
-  s.fmea = ReadFmeaTables(s.fmea_file, s.files);
+  s.spec.fmea_file = BundledOrNamed(tables, "risk.tables", kBundledTables, BundledTables(), s);
+  s.spec.fmea = ReadFmeaTables(s.spec.fmea_file, s.files);
   if (const ConfigNode* model = node != nullptr ? node->Find("model") : nullptr;
       model != nullptr && AsString(*model, "risk.model") != "none") {
-    s.risk_model_file = NamedFile(s.file.parent_path(), *model, "risk.model", s.files);
-    s.risk_model = ReadRiskModel(s.risk_model_file, s.files);
-    RequireModelOf(*s.risk_model, s, *model);
+    s.spec.risk_model_file = NamedFile(s.spec.file.parent_path(), *model, "risk.model", s.files);
+    s.spec.risk_model = ReadRiskModel(s.spec.risk_model_file, s.files);
+    RequireModelOf(*s.spec.risk_model, s, *model);
   }
-  if (!s.risk.cell_m) return;
+  if (!s.spec.risk.cell_m) return;
   constexpr double kMaxCells = 4e6;
-  const GridFrame& frame = s.site.map.frame;
-  const double side = frame.cell_m / *s.risk.cell_m;
+  const GridFrame& frame = s.world.site.map.frame;
+  const double side = frame.cell_m / *s.spec.risk.cell_m;
   if (frame.width * side * frame.height * side > kMaxCells)
-    throw InputError(node->Find("cell_m")->mark, "risk.cell_m", FormatDouble(*s.risk.cell_m),
+    throw InputError(node->Find("cell_m")->mark, "risk.cell_m", FormatDouble(*s.spec.risk.cell_m),
                      "makes more than 4 million cells of the floor");
 }
 
 void ReadControl(const ConfigNode& root, Scenario& s) {
-  const RobotSpec& robot = s.robot.spec;
+  const RobotSpec& robot = s.world.robot.spec;
   const auto drive = MakePlugin(Drives(), robot.drive, "drive", {robot.model_file, 0});
   const NamedPlugin tracker = ReadNamed(root, "controller", "name", DefaultTracker(robot.drive));
-  s.tracker_name = tracker.name;
-  s.tracker = MakePlugin(Trackers(), tracker.name, "controller", tracker.mark);
-  ReadParams(tracker.params, "controller.", *s.tracker, {"name"});
-  if (!s.tracker->Commands(*drive))
+  s.spec.tracker_name = tracker.name;
+  s.agents.tracker = MakePlugin(Trackers(), tracker.name, "controller", tracker.mark);
+  ReadParams(tracker.params, "controller.", *s.agents.tracker, {"name"});
+  if (!s.agents.tracker->Commands(*drive))
     throw InputError(tracker.mark, "controller", tracker.name,
-                     "cannot command the drive " + robot.drive + " of " + s.robot_name);
+                     "cannot command the drive " + robot.drive + " of " + s.spec.robot_name);
   const NamedPlugin estimator = ReadNamed(root, "estimator", "name", Estimators().front().name);
-  s.estimator_name = estimator.name;
-  s.estimator = MakePlugin(Estimators(), estimator.name, "estimator", estimator.mark);
-  ReadParams(estimator.params, "estimator.", *s.estimator, {"name"});
+  s.spec.estimator_name = estimator.name;
+  s.agents.estimator = MakePlugin(Estimators(), estimator.name, "estimator", estimator.mark);
+  ReadParams(estimator.params, "estimator.", *s.agents.estimator, {"name"});
 }
 
 // For keys that know a robot in the shape in which it starts.
 void RefuseFolding(const Scenario& s, const SourceMark& mark, const char* key, const char* value) {
-  if (!s.robot.spec.hinges.empty())
+  if (!s.world.robot.spec.hinges.empty())
     throw InputError(mark, key, value, "cannot be with a plan that changes the robot's shape");
 }
 
@@ -366,59 +372,64 @@ void CheckMapSize(const ConfigNode& node, const Mapper& mapper, const GridFrame&
 }
 
 // On an unknown floor a robot goes by what it draws, and by what it meets.
-bool PlansByItsMap(const Scenario& s) { return s.online && s.episode.drive == "physics"; }
+bool PlansByItsMap(const Scenario& s) {
+  return s.agents.online && s.spec.episode.drive == "physics";
+}
 
 // The mapper keeps what was met, so that a robot which reacts has one.
 void ReadReaction(const ConfigNode& root, Scenario& s) {
   if (PlansByItsMap(s)) {
     constexpr int kMost = 1000;  // reactions: to meet things is how it learns of them
-    s.recovery.emplace().most = kMost;
+    s.agents.recovery.emplace().most = kMost;
   }
   if (const ConfigNode* node = Written(root, "react")) {
-    if (!s.recovery) s.recovery.emplace();
-    ReadParams(*node, "react.", [&](ParamVisitor& v) { s.recovery->Visit(v); });
+    if (!s.agents.recovery) s.agents.recovery.emplace();
+    ReadParams(*node, "react.", [&](ParamVisitor& v) { s.agents.recovery->Visit(v); });
     RefuseFolding(s, node->mark, "react", "");
   }
   if (const ConfigNode* node = Written(root, "mapper")) {
-    s.mapper.emplace();
-    ReadParams(*node, "mapper.", *s.mapper);
-    CheckMapSize(*node, *s.mapper, s.site.map.frame);
-  } else if (s.recovery) {
-    s.mapper.emplace();
-    if (PlansByItsMap(s)) CheckMapSize(*root.Find("plan"), *s.mapper, s.site.map.frame);
+    s.agents.mapper.emplace();
+    ReadParams(*node, "mapper.", *s.agents.mapper);
+    CheckMapSize(*node, *s.agents.mapper, s.world.site.map.frame);
+  } else if (s.agents.recovery) {
+    s.agents.mapper.emplace();
+    if (PlansByItsMap(s))
+      CheckMapSize(*root.Find("plan"), *s.agents.mapper, s.world.site.map.frame);
   }
 }
 
 // What the scenario's parts need to be told.
 std::vector<Reading> NeededReadings(const ConfigNode& root, const Scenario& s) {
-  std::vector<Reading> needed = s.estimator->Needs();
+  std::vector<Reading> needed = s.agents.estimator->Needs();
   const auto add = [&needed](const std::vector<Reading>& more) {
     needed.insert(needed.end(), more.begin(), more.end());
   };
   // One that came with `react` does without.
   if (Written(root, "mapper") || PlansByItsMap(s)) add(Mapper::Needs());
-  if (s.recovery) add(s.recovery->Needs());
-  if (s.safety) add({std::begin(kSupervisionNeeds), std::end(kSupervisionNeeds)});
+  if (s.agents.recovery) add(s.agents.recovery->Needs());
+  if (s.agents.safety) add({std::begin(kSupervisionNeeds), std::end(kSupervisionNeeds)});
   return needed;
 }
 
 void ReadSensors(const ConfigNode& root, Scenario& s) {
   const ConfigNode written = PluginMap(root, "sensors", "sensors", PluginNames(Sensors()));
-  s.sensors = CarriedSensors(Sensors(), written, NeededReadings(root, s));
-  if (!s.safety) return;
+  s.agents.sensors = CarriedSensors(Sensors(), written, NeededReadings(root, s));
+  if (!s.agents.safety) return;
   std::vector<Reading> told;
-  for (const NamedSensor& named : s.sensors) told.push_back(named.sensor->Fills());
-  KeepMonitorsOf(told, *s.safety);
+  for (const NamedSensor& named : s.agents.sensors) told.push_back(named.sensor->Fills());
+  KeepMonitorsOf(told, *s.agents.safety);
 }
 
 void ReadFaultsPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = Written(root, "faults");
   if (node == nullptr) return;
-  s.faults = ReadFaults(*node, {s.robot.spec, SensorNames(s.sensors)}, s.physics.timestep_s);
+  s.world.faults = ReadFaults(*node, {s.world.robot.spec, SensorNames(s.agents.sensors)},
+                              s.world.physics.timestep_s);
 }
 
 void ReadDirtPart(const ConfigNode& root, Scenario& s) {
-  if (const ConfigNode* node = Written(root, "dirt")) s.dirt = ReadDirt(*node, s.site.map);
+  if (const ConfigNode* node = Written(root, "dirt"))
+    s.world.dirt = ReadDirt(*node, s.world.site.map);
 }
 
 void ReadFailures(const ConfigNode& root, Scenario& s) {
@@ -428,9 +439,9 @@ void ReadFailures(const ConfigNode& root, Scenario& s) {
     const std::string name(entry.name);
     if (const ConfigNode* params = written.Find(name))
       ReadParams(*params, "failures." + name + ".", *detector);
-    s.detectors.push_back({name, std::move(detector)});
+    s.agents.detectors.push_back({name, std::move(detector)});
   }
-  if (s.episode.on_failure == "assist")
+  if (s.spec.episode.on_failure == "assist")
     RefuseFolding(s, MarkOf(root, "on_failure"), "on_failure", "assist");
 }
 
@@ -487,28 +498,29 @@ void VisitGoal(ParamVisitor& v, Vec2& goal) {
 
 void ReadTopKeys(const ConfigNode& root, Scenario& s) {
   ReadParams(
-      root, "", [&](ParamVisitor& v) { s.episode.Visit(v); }, ScenarioKeys());
-  ReadGroup(root, "physics", s.physics);
-  ReadGroup(root, "video", s.video);
-  const double steps = 1 / (s.physics.timestep_s * s.episode.control_hz);
+      root, "", [&](ParamVisitor& v) { s.spec.episode.Visit(v); }, ScenarioKeys());
+  ReadGroup(root, "physics", s.world.physics);
+  ReadGroup(root, "video", s.spec.video);
+  const double steps = 1 / (s.world.physics.timestep_s * s.spec.episode.control_hz);
   if (steps < 1 || std::abs(steps - std::round(steps)) > 1e-9 * steps)
-    throw InputError(MarkOf(root, "control_hz"), "control_hz", std::to_string(s.episode.control_hz),
+    throw InputError(MarkOf(root, "control_hz"), "control_hz",
+                     std::to_string(s.spec.episode.control_hz),
                      "a control period must be a whole number of steps of " +
-                         FormatDouble(s.physics.timestep_s) + " s");
-  if (s.episode.control_hz % s.episode.trace_hz != 0)
-    throw InputError(MarkOf(root, "trace_hz"), "trace_hz", std::to_string(s.episode.trace_hz),
-                     "must divide control_hz = " + std::to_string(s.episode.control_hz));
+                         FormatDouble(s.world.physics.timestep_s) + " s");
+  if (s.spec.episode.control_hz % s.spec.episode.trace_hz != 0)
+    throw InputError(MarkOf(root, "trace_hz"), "trace_hz", std::to_string(s.spec.episode.trace_hz),
+                     "must divide control_hz = " + std::to_string(s.spec.episode.control_hz));
 }
 
 void ReadParts(const ConfigNode& root, Scenario& s) {
   ReadSafetyPart(root, s);
   const std::vector<int> plan_lines = ReadPlanPart(root, s);
   ReadRobotPart(root, plan_lines, s);  // whether it folds hangs on the plan
-  s.robot.spec.step_m = TrustedStep(s.robot.spec, s.site.map.floor_friction);
-  s.start = ReadStart(root, s.site.map);
-  s.site.map.start = s.start;  // the scenario's own wins, on pictures too
+  s.world.robot.spec.step_m = TrustedStep(s.world.robot.spec, s.world.site.map.floor_friction);
+  s.world.start = ReadStart(root, s.world.site.map);
+  s.world.site.map.start = s.world.start;  // the scenario's own wins, on pictures too
   CheckStart(root, s);
-  s.goal = ReadGoal(root, s);
+  s.world.goal = ReadGoal(root, s);
   CheckOnline(root, s);
   ReadRisk(root, s);
   ReadControl(root, s);

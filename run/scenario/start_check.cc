@@ -40,23 +40,24 @@ void Check(const ConfigNode& root, Start start) {
 }  // namespace
 
 void CheckStarts(const ConfigNode& root, Scenario& s) {
-  const HazardMap known = KnownFloor(s);
+  const HazardMap known = KnownFloor(s.world);
   Check(root, [&] {
-    s.estimator->Start({known, s.robot.spec, s.start, Stream(0, 0, "estimator")});
+    s.agents.estimator->Start(
+        {known, s.world.robot.spec, s.world.start, Stream(0, 0, "estimator")});
   });
-  if (std::ranges::all_of(s.sensors, &NamedSensor::implied)) return;
+  if (std::ranges::all_of(s.agents.sensors, &NamedSensor::implied)) return;
   HazardMap bare;
   bare.frame = {1, 1, 1, {}};
   bare.occupancy = Grid<CellState>(1, 1);
-  const Scene scene = BuildScene(bare, s.robot, s.physics, {});
+  const Scene scene = BuildScene(bare, s.world.robot, s.world.physics, {});
   const DataPtr data = MakeData(scene.model.get());
   ForwardEngine(scene.model.get(), data.get());
   Observation sensed;
   const std::vector<double> motor_nm(static_cast<std::size_t>(scene.model->nu));
-  for (const auto& [name, sensor, implied] : s.sensors)
+  for (const auto& [name, sensor, implied] : s.agents.sensors)
     Check(root, [&, &name = name, &sensor = sensor] {
-      sensor->Start({scene, bare, s.robot.spec, 1.0 / s.episode.control_hz, motor_nm}, data.get(),
-                    {}, Stream(0, 0, name), sensed);
+      sensor->Start({scene, bare, s.world.robot.spec, 1.0 / s.spec.episode.control_hz, motor_nm},
+                    data.get(), {}, Stream(0, 0, name), sensed);
     });
 }
 

@@ -52,11 +52,11 @@ class StudyFloor {
                 .Read()),
         plan_(MakePlan(scenario_)),
         area_(ComputeSweepArea(map(), robot().clear, robot().tool, robot().step_m,
-                               scenario_.start.p())),
+                               scenario_.world.start.p())),
         away_(DistanceToCentres(area_.reachable)) {}
 
-  const HazardMap& map() const { return scenario_.site.map; }
-  const RobotSpec& robot() const { return scenario_.robot.spec; }
+  const HazardMap& map() const { return scenario_.world.site.map; }
+  const RobotSpec& robot() const { return scenario_.world.robot.spec; }
   const PlanResult& plan() const { return plan_; }
   const SweepArea& area() const { return area_; }
 

@@ -55,7 +55,7 @@ TEST_F(MapperEpisode, GlassIsWhatItGetsWrong) {
   const std::string pane = "{type: glass, line_m: [[4.2, 0.5], [5, 4.5]]}";
   const auto compare = [&](const std::string& hazards) {
     const EpisodeRecord record = With(hazards);
-    return Compare(*record.known, Read(RoomScenario(hazards)).site.map, 0.01, 0.1);
+    return Compare(*record.known, Read(RoomScenario(hazards)).world.site.map, 0.01, 0.1);
   };
   const auto wrongly_free = [](const KnownAgainstTruth& seen) {
     return std::ranges::count(seen.cells.cells, KnownAgainstTruth::kWronglyFree);

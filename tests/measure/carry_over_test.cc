@@ -77,7 +77,7 @@ TEST(PlanFloors, AreDrawnForTheRobotAndAreTheSameEachTime) {
   EXPECT_NO_THROW(beluga.file.CheckDraws());
   // Other floors: as many rows of characters, other ones.
   const auto map = [&](std::size_t variant) {
-    return beluga.file.Read(0, beluga.file.variants()[variant]).site.map;
+    return beluga.file.Read(0, beluga.file.variants()[variant]).world.site.map;
   };
   EXPECT_EQ(map(0).hazards.size(), map(1).hazards.size()) << "of one floor, by two planners";
   EXPECT_NE(map(0).occupancy.cells, map(4).occupancy.cells);

@@ -172,13 +172,13 @@ TEST(PlansOverFloors, EachFloorHasItsConditions) {
   ASSERT_EQ(std::ssize(dut.variants()), kFloors * kPlanners);
   for (const Variant& variant : dut.variants()) {
     const Scenario s = dut.Read(0, variant);
-    frictions.insert(s.site.map.floor_friction);
-    masses.insert(s.robot.spec.mass_kg);
+    frictions.insert(s.world.site.map.floor_friction);
+    masses.insert(s.world.robot.spec.mass_kg);
   }
   EXPECT_EQ(std::ssize(frictions), kFloors);
   EXPECT_EQ(std::ssize(masses), kFloors);
   const ScenarioFile heavy = PlansOf("beluga", 1, {{"robot.mass_kg", "13"}}).file;
-  EXPECT_NEAR(heavy.Read(0, heavy.variants()[0]).robot.spec.mass_kg, 13, 1e-9);
+  EXPECT_NEAR(heavy.Read(0, heavy.variants()[0]).world.robot.spec.mass_kg, 13, 1e-9);
   const RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).spec;
   const ConfigNode predicted =
       ParseYaml(PlanFloorsScenario("beluga", robot, kFloors, FloorConditions::kDrawn), "s.yaml");

@@ -50,7 +50,7 @@ TEST_F(CellDriveTest, CoversTheFloorAndSaysWhatItDrove) {
   EXPECT_NEAR(m.extra_visits, (static_cast<double>(record.steps) - 20) / 20, 1e-12);
   EXPECT_GE(m.path_length_m, 0.5 * static_cast<double>(record.steps - 1));
   EXPECT_LE(m.path_length_m, 0.71 * static_cast<double>(record.steps - 1));
-  EXPECT_NEAR(m.duration_s, m.path_length_m / s.robot.spec.cruise_mps, 1e-9);
+  EXPECT_NEAR(m.duration_s, m.path_length_m / s.world.robot.spec.cruise_mps, 1e-9);
   EXPECT_EQ(record.trace.back().coverage, 1);
   for (std::size_t i = 1; i < record.trace.size(); ++i)
     EXPECT_GE(record.trace[i].revisited, record.trace[i - 1].revisited);

@@ -19,8 +19,8 @@ TEST_F(AuditDrive, TheSensorStandsOverEachPlaceAndTheRobotTouchesNothing) {
   const PlanResult plan = MakePlan(s);
   ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
   ASSERT_TRUE(std::ranges::all_of(plan.samples, &SamplePlace::reachable));
-  const double sensor_x_m = s.robot.spec.audit_sensor_x_m;
-  const double dwell_s = s.robot.spec.audit_dwell_s;
+  const double sensor_x_m = s.world.robot.spec.audit_sensor_x_m;
+  const double dwell_s = s.world.robot.spec.audit_dwell_s;
   const EpisodeRecord record = Drive(std::move(s));
   EXPECT_EQ(record.outcome, Outcome::kSuccess) << record.message;
   EXPECT_EQ(record.metrics.contacts, 0);

@@ -70,7 +70,8 @@ TEST_F(Seams, AreNotFelt) {
       "{id: pit, type: step, height_m: -0.1, polygon_m: [[4, 2.2], [4.6, 2.2], [4.6, 2.8], [4, "
       "2.8]]}";
   Scenario with = Read(RoomScenario(pit, "start: {x_m: 1.5, y_m: 1.5}\n"));
-  const Scene scene = BuildScene(with.site.map, with.robot, with.physics, with.start);
+  const Scene scene =
+      BuildScene(with.world.site.map, with.world.robot, with.world.physics, with.world.start);
   ASSERT_GT(scene.num_floor_geoms, 3) << "there are seams to cross";
   const EpisodeRecord dut = Drive(std::move(with));
   EXPECT_EQ(dut.outcome, Outcome::kSuccess);

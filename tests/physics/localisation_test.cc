@@ -75,7 +75,8 @@ class Listener final : public EpisodeObserver {
   Listener(const Scenario& scenario, std::uint64_t seed)
       : dut_(MakePlugin(Estimators(), "mcl", "estimator")) {
     ReadParams(ParseYaml("{global: true, particles: 20000}", "params"), "", *dut_);
-    dut_->Start({scenario.site.map, scenario.robot.spec, scenario.start, Stream(seed, 0, "dut")});
+    dut_->Start({scenario.world.site.map, scenario.world.robot.spec, scenario.world.start,
+                 Stream(seed, 0, "dut")});
   }
   bool OnControl(const EpisodeView& now) override {
     const Sample& truth = now.sample;
@@ -100,8 +101,8 @@ TEST_P(GlobalStart, IsFoundAnywhereOnTheFloor) {
         ReadInit({{"sensors.lidar", "{}"}, {"sensors.encoders", "{}"}, {"sensors.imu", "{}"}});
     Listener listener(scenario, seed);
     const PlanResult plan = MakePlan(scenario);
-    const Scene scene =
-        BuildScene(scenario.site.map, scenario.robot, scenario.physics, scenario.start);
+    const Scene scene = BuildScene(scenario.world.site.map, scenario.world.robot,
+                                   scenario.world.physics, scenario.world.start);
     RunEpisode(scenario, scene, plan, &listener);
     found += listener.error_m() < kNear_m;
   }

@@ -64,7 +64,8 @@ class MeasuredDrives : public ScenarioTest {
   void KeepOff(const std::string& hazard) const {
     SCOPED_TRACE(hazard);
     Scenario scenario = Room(hazard);
-    EXPECT_TRUE(IsObstacle(KnownFloor(scenario).hazards.at(0), scenario.robot.spec.step_m));
+    EXPECT_TRUE(
+        IsObstacle(KnownFloor(scenario.world).hazards.at(0), scenario.world.robot.spec.step_m));
     const PlanResult dut = MakePlan(scenario);
     EXPECT_EQ(dut.status, PlanStatus::kSuccess) << dut.message;
     EXPECT_FALSE(LeadsPast(dut.path));

@@ -47,11 +47,11 @@ TEST_P(SeamsOnRealMaps, AreNotFelt) {
   Heave whole, dut;
   for (Heave* heave : {&whole, &dut}) {
     Scenario scenario = ReadInit({{"time_limit_s", "180"}});
-    if (heave == &dut) CutIntoSlabs(scenario.site.map, scenario.start);
+    if (heave == &dut) CutIntoSlabs(scenario.world.site.map, scenario.world.start);
     const PlanResult plan = MakePlan(scenario);
     ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
-    const Scene scene =
-        BuildScene(scenario.site.map, scenario.robot, scenario.physics, scenario.start);
+    const Scene scene = BuildScene(scenario.world.site.map, scenario.world.robot,
+                                   scenario.world.physics, scenario.world.start);
     if (heave == &dut) {
       ASSERT_GT(scene.num_floor_geoms, 10) << "there are seams to cross";
     }

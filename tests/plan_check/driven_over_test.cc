@@ -85,7 +85,7 @@ TEST_F(DrivenOverTest, WhatALaterFloorTookAwayIsNotMet) {
     const Scenario scenario = Room(hazards, "5.5,2.5\n");
     std::vector<std::string> found;
     for (const DrivenOver& driven : Find(scenario))
-      found.push_back(TrueFloor(scenario).hazards[driven.hazard].id);
+      found.push_back(TrueFloor(scenario.world).hazards[driven.hazard].id);
     return found;
   };
   using ::testing::UnorderedElementsAre;
@@ -107,7 +107,7 @@ TEST_F(DrivenOverTest, FromARaisedFloorTheSameIsMet) {
         "height_m: 0.005}, "}) {
     const Scenario scenario = Room(platform + cover, "5.5,2.5\n");
     const auto dut = Find(scenario);
-    const HazardMap floor = TrueFloor(scenario);
+    const HazardMap floor = TrueFloor(scenario.world);
     ASSERT_FALSE(dut.empty());
     EXPECT_EQ(floor.hazards[dut.front().hazard].id, "cover") << platform;
     EXPECT_EQ(dut.front().times, 1);

@@ -131,7 +131,7 @@ TEST_F(PredictionTest, APlannerKnowsWhatMayBeDrawnAndNotWhatIs) {
   const ScenarioFile file(Save("scenario.yaml", scenario),
                           {{"plan", "{planner: survival_coverage}"}});
   Scenario a = file.Read(0), b = file.Read(1);
-  ASSERT_NE(a.site.map.floor_friction, b.site.map.floor_friction);
+  ASSERT_NE(a.world.site.map.floor_friction, b.world.site.map.floor_friction);
   const std::vector<DriveConditions> of_a = ConditionsOf(a), of_b = ConditionsOf(b);
   ASSERT_THAT(of_a, SizeIs(64));
   double sum = 0;
@@ -139,7 +139,7 @@ TEST_F(PredictionTest, APlannerKnowsWhatMayBeDrawnAndNotWhatIs) {
     EXPECT_EQ(of_a[i].friction, of_b[i].friction);
     EXPECT_GE(of_a[i].friction, 0.4);
     EXPECT_LE(of_a[i].friction, 0.8);
-    EXPECT_EQ(of_a[i].mass_kg, a.robot.spec.mass_kg);
+    EXPECT_EQ(of_a[i].mass_kg, a.world.robot.spec.mass_kg);
     sum += of_a[i].friction / 64;
   }
   EXPECT_NEAR(sum, 0.6, 0.005) << "spread evenly";

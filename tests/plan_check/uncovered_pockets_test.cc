@@ -42,9 +42,9 @@ class UncoveredTest : public ScenarioTest {
   static UncoveredFloor Find(const Scenario& s) {
     const PlanResult plan = MakePlan(s);
     EXPECT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
-    return FindUncovered(
-        s, plan,
-        ComputeSweepArea(KnownFloor(s), plan.clear, plan.tool, s.robot.spec.step_m, s.start.p()));
+    return FindUncovered(s, plan,
+                         ComputeSweepArea(KnownFloor(s.world), plan.clear, plan.tool,
+                                          s.world.robot.spec.step_m, s.world.start.p()));
   }
 };
 
@@ -162,7 +162,8 @@ TEST_F(UncoveredTest, EachOfManyLevelsThatOverlapIsThePocketThatItIsAlone) {
     const std::string id = "shingle" + std::to_string(i);
     const std::vector<UncoveredPocket> level = LevelsOf(dut, id);
     ASSERT_THAT(level, SizeIs(1)) << id;
-    const Polygon& polygon = scenario.site.map.hazards[static_cast<std::size_t>(i)].footprint[0];
+    const Polygon& polygon =
+        scenario.world.site.map.hazards[static_cast<std::size_t>(i)].footprint[0];
     EXPECT_LT(SignedDistance(polygon, level[0].p_W), 0) << id;
     if (i % 8 != 0) continue;
     const std::vector<UncoveredPocket> alone = LevelsOf(Find(Read(RoomScenario(Shingle(i)))), id);
@@ -218,7 +219,7 @@ TEST_F(UncoveredTest, AStepOnTheWayIsNotExpectedToSlowTheDriveDown) {
       Save("plan.csv", "x_m,y_m\n1.5,2.5\n5.5,2.5\n");
       Scenario bare = Read(RoomScenario(""), {{"robot", robot}});
       Scenario scenario = Read(RoomScenario(step), {{"robot", robot}});
-      ASSERT_TRUE(IsObstacle(scenario.site.map.hazards[0], scenario.robot.spec.step_m));
+      ASSERT_TRUE(IsObstacle(scenario.world.site.map.hazards[0], scenario.world.robot.spec.step_m));
       const double time_s = EstimateBudget(scenario, MakePlan(scenario)).time_s;
       EXPECT_NEAR(time_s, EstimateBudget(bare, MakePlan(bare)).time_s, 1e-9) << robot << height_m;
     }

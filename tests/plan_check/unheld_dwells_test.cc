@@ -19,8 +19,8 @@ class UnheldDwells : public ScenarioTest {
         "{type: ramp, polygon_m: [[3, 0.5], [5, 0.5], [5, 4.5], [3, 4.5]], slope_deg: " +
         std::to_string(slope_deg) + ", toward_deg: 0}";
     Scenario s = ScenarioFile(Save("scenario.yaml", RoomScenario(ramp, ""))).Read(std::nullopt);
-    s.robot.spec.standstill = standstill;
-    for (WheelSpec& wheel : s.robot.spec.wheels) wheel.max_torque_nm *= torque_factor;
+    s.world.robot.spec.standstill = standstill;
+    for (WheelSpec& wheel : s.world.robot.spec.wheels) wheel.max_torque_nm *= torque_factor;
     PlanResult plan;
     for (const double x : {1.5, 4.0, 7.0}) {
       Waypoint& w = plan.path.emplace_back();

@@ -28,7 +28,7 @@ class HazardPictures : public ScenarioTest {
   // The robot is 0.75 m before x = 4 m.
   Image Picture(const std::string& hazard, const CameraView& view) const {
     const Scenario s = Read(RoomScenario(hazard));
-    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, kRobot);
+    const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, kRobot);
     const DataPtr data = MakeData(scene.model.get());
     PoseForPicture(scene.model.get(), data.get());
     OffscreenRenderer renderer(scene.model.get(), kWidth, kHeight);

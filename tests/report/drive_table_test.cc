@@ -17,10 +17,10 @@ using ::testing::Not;
 class DriveTableTest : public ::testing::Test {
  protected:
   DriveTableTest() {
-    s_.robot.spec.name = "BELUGA";
-    s_.site.map.name = "hall";
-    s_.planner_name = "spiral";
-    Hazard& plank = s_.site.map.hazards.emplace_back();
+    s_.world.robot.spec.name = "BELUGA";
+    s_.world.site.map.name = "hall";
+    s_.spec.planner_name = "spiral";
+    Hazard& plank = s_.world.site.map.hazards.emplace_back();
     plank.id = "plank";
     plank.type = "step";
     plank.height_m = 0.04;
@@ -106,7 +106,7 @@ TEST_F(DriveTableTest, ALimitThatWasPassedTooShortlyIsSaidToBe) {
 }
 
 TEST_F(DriveTableTest, OverCellsThereIsNoTimeAndNoFailure) {
-  s_.episode.drive = "cells";
+  s_.spec.episode.drive = "cells";
   record_.metrics.revisited = 0.123;
   record_.steps = 1251;
   EXPECT_THAT(Lines(200),
@@ -118,7 +118,7 @@ TEST_F(DriveTableTest, OverCellsThereIsNoTimeAndNoFailure) {
 
 TEST_F(DriveTableTest, FitsAnyWindow) {
   AddStuck();
-  s_.site.map.name = "階段のあるとても長い名前のホール";
+  s_.world.site.map.name = "階段のあるとても長い名前のホール";
   for (const int width : {40, 80, 200})
     for (const std::string& line : Lines(width)) EXPECT_LE(DisplayWidth(line), width) << line;
   EXPECT_THAT(Text(40),
@@ -127,7 +127,7 @@ TEST_F(DriveTableTest, FitsAnyWindow) {
 }
 
 TEST_F(DriveTableTest, ANameMovesNoCursor) {
-  s_.site.map.name = "hall\033[2J\nVerdict success";
+  s_.world.site.map.name = "hall\033[2J\nVerdict success";
   EXPECT_EQ(Lines(80)[0], "BELUGA on hall?[2J Verdict success, spiral");
 }
 

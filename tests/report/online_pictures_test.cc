@@ -91,7 +91,7 @@ TEST_F(OnlinePictures, ThePictureHasTheRecordsCells) {
   Scenario s = Read(Text());
   const EpisodeRecord record = Execute(s).record;
   const auto counts = CountProperties(record);
-  const HeatValues dut = CellProperties(s.site.map, record);
+  const HeatValues dut = CellProperties(s.world.site.map, record);
   std::array<std::int64_t, kNumCellProperties> drawn{};
   for (const float v : dut.values.cells)
     if (std::isfinite(v)) ++drawn[static_cast<std::size_t>(v)];
@@ -133,7 +133,7 @@ TEST_F(OnlinePictures, ADriveOverCellsIsFilmedWithoutPhysicsAndAgainTheSame) {
 // A tool of a robot that drives a lane twice and half of a third time.
 TEST_F(OnlinePictures, WhatIsSweptAgainIsPaintedWhereAndWhenItIs) {
   const Scenario s = Read(Text());
-  const RobotSpec& robot = s.robot.spec;
+  const RobotSpec& robot = s.world.robot.spec;
   SweepArea area;
   area.frame = {80, 40, 0.05, {1, 2, 0.3}};
   area.sweepable = Grid<std::uint8_t>(80, 40, 1);
@@ -164,7 +164,7 @@ TEST_F(OnlinePictures, WhatIsSweptAgainIsPaintedWhereAndWhenItIs) {
     EXPECT_GT(patch.t_s, 100) << "on the way back";
     last_s = patch.t_s;
     const Vec2 middle = area.frame.X_WG.Inverse() * Vec2(0.5 * (patch.a_W + patch.b_W));
-    EXPECT_NEAR(middle.y(), 1, 0.5 * s.robot.spec.circumscribed_radius_m + 0.2);
+    EXPECT_NEAR(middle.y(), 1, 0.5 * s.world.robot.spec.circumscribed_radius_m + 0.2);
   }
   const double again_m2 = meter.swept().revisited() * area.area_m2();
   EXPECT_GT(again_m2, 0.3);

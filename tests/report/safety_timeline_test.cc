@@ -13,9 +13,9 @@ namespace {
 class SafetyTimelineTest : public ::testing::Test {
  protected:
   SafetyTimelineTest() {
-    scenario_.safety.emplace();
-    scenario_.safety->mission.name = "m";
-    scenario_.safety->mission.nodes.emplace_back().name = "m";
+    scenario_.agents.safety.emplace();
+    scenario_.agents.safety->mission.name = "m";
+    scenario_.agents.safety->mission.nodes.emplace_back().name = "m";
     record_.outcome = Outcome::kSuccess;
     record_.metrics.duration_s = 100;
     record_.speed_shares = {{0, 1}, {20, 0}, {30, 0.5}};
@@ -26,7 +26,7 @@ class SafetyTimelineTest : public ::testing::Test {
     record_.alarms = {{20, "wheel_speed", "left", 28}, {40, "wheel_speed", "right", {}}};
   }
   void Break(const FaultTiming& timing) {
-    scenario_.faults.push_back({"weak_motor", "loose", nullptr, timing});
+    scenario_.world.faults.push_back({"weak_motor", "loose", nullptr, timing});
   }
   TimelineRow Row(const std::string& name) const {
     const Timeline dut = SafetyTimeline(scenario_, record_);
@@ -55,13 +55,13 @@ TEST_F(SafetyTimelineTest, ShowsWhatWasDecidedAndDone) {
 TEST_F(SafetyTimelineTest, ShowsWhatWasBrokenWheneverItWas) {
   Break({.onset_s = 10, .duration_s = 50, .period_s = 20, .duty = 0.25});
   EXPECT_EQ(Text(Row("broken: loose")), "10-15 weak motor; 30-35 weak motor; 50-55 weak motor; ");
-  scenario_.faults.clear();
+  scenario_.world.faults.clear();
   Break({.onset_s = 10, .duration_s = {}, .period_s = {}});
   EXPECT_EQ(Text(Row("broken: loose")), "10-100 weak motor; ");
-  scenario_.faults.clear();
+  scenario_.world.faults.clear();
   Break({.onset_s = 1000, .duration_s = {}, .period_s = {}});
   EXPECT_EQ(Text(Row("broken: loose")), "");
-  scenario_.faults.clear();
+  scenario_.world.faults.clear();
   Break({.onset_s = 0, .duration_s = {}, .period_s = 0.001, .duty = 0.5});
   EXPECT_LE(Row("broken: loose").spans.size(), 2000u);
 }

@@ -128,9 +128,9 @@ TEST(Verdict, APassedGateSaysItsBound) {
 // What the variants differ in is no subject of all of them.
 TEST(Verdict, SubjectIsWhatTheVariantsShare) {
   Scenario scenario;
-  scenario.robot.spec.name = "htetro";
-  scenario.planner_name = "spiral";
-  scenario.site.map.name = "hall";
+  scenario.world.robot.spec.name = "htetro";
+  scenario.spec.planner_name = "spiral";
+  scenario.world.site.map.name = "hall";
   EXPECT_EQ(SubjectOf(scenario, {}), "htetro, spiral plan, hall");
   const auto with = [&](const std::string& key) {
     Variant variant;
@@ -142,8 +142,8 @@ TEST(Verdict, SubjectIsWhatTheVariantsShare) {
   EXPECT_EQ(with("plan.speed_mps"), "htetro, spiral plan, hall");
   EXPECT_EQ(with("site"), "htetro, spiral plan");
   EXPECT_EQ(with("site.floor.friction"), "htetro, spiral plan, hall");
-  scenario.planner_name.clear();
-  scenario.plan_file = "plans/mine.csv";
+  scenario.spec.planner_name.clear();
+  scenario.spec.plan_file = "plans/mine.csv";
   EXPECT_EQ(SubjectOf(scenario, {}), "htetro, plan mine.csv, hall");
 }
 

@@ -215,7 +215,7 @@ class DrawnScenario : public ScenarioTest {
   }
   using ScenarioTest::Read;
   static std::string HeightOf(const Scenario& s) {
-    return s.site_node.Find("hazards")->items[0].Find("height_m")->scalar;
+    return s.text.site.Find("hazards")->items[0].Find("height_m")->scalar;
   }
 };
 
@@ -233,9 +233,9 @@ TEST_F(DrawnScenario, KeysReachIntoTheSitesLists) {
            "  site.hazards.0.height_m: {uniform: [0.01, 0.02]}\n"
            "  site.hazards.0.polygon_m.1.0: {uniform: [4.2, 4.3]}\n"));
   const Scenario s = drawn.Read(3);
-  EXPECT_EQ(HeightOf(s), s.drawn[0].second.scalar);
-  EXPECT_EQ(s.site_node.Find("hazards")->items[0].Find("polygon_m")->items[1].items[0].scalar,
-            s.drawn[1].second.scalar);
+  EXPECT_EQ(HeightOf(s), s.spec.drawn[0].second.scalar);
+  EXPECT_EQ(s.text.site.Find("hazards")->items[0].Find("polygon_m")->items[1].items[0].scalar,
+            s.spec.drawn[1].second.scalar);
   EXPECT_EQ(HeightOf(drawn.Read(std::nullopt)), "0.006") << "without an episode nothing is drawn";
 }
 
@@ -244,11 +244,11 @@ TEST_F(DrawnScenario, WhatIsSetIsNotDrawn) {
       Room("randomise: {start.y_m: {uniform: [2, 3]}, site.floor.friction: {uniform: [0.4, 1]}}\n");
   const Scenario all = ScenarioFile(file).Read(1);
   const Scenario one = ScenarioFile(file, {{"start.y_m", "2.25"}}).Read(1);
-  ASSERT_EQ(one.drawn.size(), 1u);
-  EXPECT_EQ(one.start.y_m, 2.25);
-  EXPECT_EQ(one.drawn[0].second.scalar, all.drawn[1].second.scalar);
+  ASSERT_EQ(one.spec.drawn.size(), 1u);
+  EXPECT_EQ(one.world.start.y_m, 2.25);
+  EXPECT_EQ(one.spec.drawn[0].second.scalar, all.spec.drawn[1].second.scalar);
   const Scenario whole = ScenarioFile(file, {{"start", "{x_m: 1.5, y_m: 2.75}"}}).Read(1);
-  EXPECT_EQ(whole.start.y_m, 2.75) << "the key above it is set";
+  EXPECT_EQ(whole.world.start.y_m, 2.75) << "the key above it is set";
 }
 
 TEST_F(DrawnScenario, VariantsShareTheDraws) {
@@ -258,9 +258,9 @@ TEST_F(DrawnScenario, VariantsShareTheDraws) {
   for (std::uint64_t episode : {0u, 1u, 9u}) {
     const Scenario a = file.Read(episode, file.variants()[0]);
     const Scenario b = file.Read(episode, file.variants()[1]);
-    EXPECT_EQ(a.start.y_m, b.start.y_m);
-    EXPECT_EQ(a.robot_name, "beluga");
-    EXPECT_EQ(b.robot_name, "htetro");
+    EXPECT_EQ(a.world.start.y_m, b.world.start.y_m);
+    EXPECT_EQ(a.spec.robot_name, "beluga");
+    EXPECT_EQ(b.spec.robot_name, "htetro");
   }
 }
 

@@ -35,8 +35,9 @@ TEST_F(EncounterDrive, WhatIsMetIsWhatWasPlanned) {
   for (const char* robot : {"beluga", "htetro"}) {
     Scenario scenario = Read(RoomScenario(kCover), {{"robot", robot}});
     const Execution dut = Execute(scenario);
-    const auto planned = FindPassages(TrueFloor(scenario), scenario.robot.spec, scenario.start,
-                                      dut.plan.path, robot == std::string("htetro"));
+    const auto planned =
+        FindPassages(TrueFloor(scenario.world), scenario.world.robot.spec, scenario.world.start,
+                     dut.plan.path, robot == std::string("htetro"));
     std::vector<Encounter> met = dut.record.encounters;
     const auto exposures = std::stable_partition(
         met.begin(), met.end(), [](const Encounter& e) { return !e.hazard.empty(); });
@@ -53,7 +54,7 @@ TEST_F(EncounterDrive, WhatIsMetIsWhatWasPlanned) {
       EXPECT_NEAR(met[i].y_m, planned[i].X_WB.y_m, 0.06);
       EXPECT_NEAR(met[i].at.speed_mps, planned[i].at.speed_mps, 0.03);
       EXPECT_GT(met[i].time_s, 0.9 * met[i].way_m / planned[i].at.speed_mps);
-      EXPECT_EQ(met[i].at.mass_kg, scenario.robot.spec.mass_kg);
+      EXPECT_EQ(met[i].at.mass_kg, scenario.world.robot.spec.mass_kg);
     }
     double way_m = 0;
     for (const Encounter& e : dut.record.encounters) way_m += e.way_m;
@@ -122,8 +123,8 @@ class Moved : public ScenarioTest {
   }
 
   Scenario scenario_;
-  HazardMap floor_ = TrueFloor(scenario_);
-  EncounterMeter dut_{floor_, scenario_.robot.spec, false};
+  HazardMap floor_ = TrueFloor(scenario_.world);
+  EncounterMeter dut_{floor_, scenario_.world.robot.spec, false};
   double t_s_ = 0;
   Path path_;
 };
@@ -166,7 +167,7 @@ TEST_F(Moved, WhoFallsBackAndTriesAgainIsInTheSameEncounter) {
   path_.resize(2);
   path_[0].p_W = {1, 2.5}, path_[1].p_W = {8, 2.5};
   const double enters_m =
-      BoxAround(floor_.hazards[0].footprint[0]).low.x() - scenario_.robot.spec.clear.radius_m;
+      BoxAround(floor_.hazards[0].footprint[0]).low.x() - scenario_.world.robot.spec.clear.radius_m;
   Move(2, enters_m + 0.03);
   Move(enters_m + 0.03, enters_m - 0.05);
   Move(enters_m - 0.05, 6);
@@ -176,8 +177,8 @@ TEST_F(Moved, WhoFallsBackAndTriesAgainIsInTheSameEncounter) {
 }
 
 TEST_F(Moved, ComingOverItAgainIsAnotherEncounterThoughItStaysWithinReach) {
-  const double leaves_m =
-      BoxAround(floor_.hazards[0].footprint[0]).high.x() + scenario_.robot.spec.clear.radius_m;
+  const double leaves_m = BoxAround(floor_.hazards[0].footprint[0]).high.x() +
+                          scenario_.world.robot.spec.clear.radius_m;
   Move(2, leaves_m + 0.05);
   Move(leaves_m + 0.05, 2);
   EXPECT_THAT(Outcomes(dut_.Finish()),

@@ -44,7 +44,7 @@ TEST_F(EpisodeTest, EachDetectorHasItsOwnMargin) {
     bool Update(const Sample&) override { return false; }
   };
   Scenario scenario = Read(RoomScenario(""));
-  scenario.detectors.push_back({"content", std::make_unique<Content>()});
+  scenario.agents.detectors.push_back({"content", std::make_unique<Content>()});
   const Execution dut = Execute(scenario);
   const auto margins = ResultJson(scenario, dut.record).at("margins");
   EXPECT_EQ(margins.size(), Detectors().size() + 1);
@@ -97,7 +97,7 @@ TEST(TraceCsv, KeepsATenthOfAMillimetreAnywhere) {
 TEST_F(EpisodeTest, EnergyIsHotelLoadAndMotors) {
   const Scenario scenario = Read(RoomScenario(""));
   const EpisodeRecord dut = Drive(Read(RoomScenario("")));
-  const double hotel_j = scenario.robot.spec.hotel_load_w * dut.metrics.duration_s;
+  const double hotel_j = scenario.world.robot.spec.hotel_load_w * dut.metrics.duration_s;
   EXPECT_GT(dut.metrics.energy_j, hotel_j);
   EXPECT_LT(dut.metrics.energy_j, 1.2 * hotel_j)
       << "the motors of a slow robot on flat floor take little";
@@ -120,9 +120,9 @@ class Errand : public Planner {
 
 TEST_F(EpisodeTest, APlansTasksReachTheOneWhoDrivesIt) {
   Scenario scenario = Read(RoomScenario(""));
-  scenario.user_plan[1].task = WaypointTask{.id = 8};
-  EXPECT_EQ(MakePlan(scenario).path[1].task, scenario.user_plan[1].task);
-  scenario.planner = std::make_unique<Errand>();
+  scenario.spec.user_plan[1].task = WaypointTask{.id = 8};
+  EXPECT_EQ(MakePlan(scenario).path[1].task, scenario.spec.user_plan[1].task);
+  scenario.agents.planner = std::make_unique<Errand>();
   const PlanResult plan = MakePlan(scenario);
   EXPECT_EQ(plan.path[1].task, WaypointTask{.id = 3});
   EXPECT_FALSE(plan.path[0].task || plan.path[2].task);

@@ -104,7 +104,7 @@ class IdealPlant final : public Plant {
 TEST_F(ExecuteTest, TheLoopRunsOnAnyPlant) {
   Scenario scenario = Read(RoomScenario(""));
   const PlanResult plan = MakePlan(scenario);
-  IdealPlant plant(scenario.physics.timestep_s);
+  IdealPlant plant(scenario.world.physics.timestep_s);
   const EpisodeRecord ideal = RunEpisode(scenario, plant, nullptr, plan, nullptr);
   EXPECT_EQ(ideal.outcome, Outcome::kSuccess) << ideal.message;
   EXPECT_THAT(ideal.events, IsEmpty());
@@ -117,7 +117,7 @@ TEST_F(ExecuteTest, TheLoopRunsOnAnyPlant) {
 TEST_F(ExecuteTest, APlantThatBreaksIsAnError) {
   Scenario scenario = Read(RoomScenario(""));
   const PlanResult plan = MakePlan(scenario);
-  IdealPlant plant(scenario.physics.timestep_s);
+  IdealPlant plant(scenario.world.physics.timestep_s);
   plant.breaks_s = 1;
   const EpisodeRecord dut = RunEpisode(scenario, plant, nullptr, plan, nullptr);
   EXPECT_EQ(dut.outcome, Outcome::kError);
@@ -130,9 +130,10 @@ TEST_F(ExecuteTest, AScenarioIsReadFromMemoryAsFromAFile) {
   const floorproof::ScenarioFile dut =
       floorproof::ScenarioFile::FromText(text, folder_ / "never_written.yaml", {{"seed", "3"}});
   const Scenario from_memory = dut.Read(0);
-  EXPECT_EQ(from_memory.episode.seed, 3);
-  EXPECT_EQ(from_memory.name, "never_written");
-  EXPECT_EQ(from_memory.user_plan.size(), Read(text).user_plan.size()) << "beside that file";
+  EXPECT_EQ(from_memory.spec.episode.seed, 3);
+  EXPECT_EQ(from_memory.spec.name, "never_written");
+  EXPECT_EQ(from_memory.spec.user_plan.size(), Read(text).spec.user_plan.size())
+      << "beside that file";
   try {
     floorproof::ScenarioFile::FromText(text + "nonsense: 1\n", folder_ / "never_written.yaml");
     FAIL();

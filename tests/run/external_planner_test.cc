@@ -83,7 +83,7 @@ TEST_F(ExternalPlanner, IsToldWhatAPlannerMayKnow) {
   EXPECT_EQ(dut["start"], nlohmann::json::parse(R"({"x_m": 1.5, "y_m": 2.5, "yaw_rad": 0})"));
   EXPECT_EQ(dut["goal"], nlohmann::json::parse(R"({"x_m": 4, "y_m": 3})"));
   EXPECT_EQ(dut["robot"]["name"], "beluga");
-  EXPECT_EQ(dut["robot"]["clear"]["circle_radius_m"], scenario.robot.spec.clear.radius_m);
+  EXPECT_EQ(dut["robot"]["clear"]["circle_radius_m"], scenario.world.robot.spec.clear.radius_m);
   EXPECT_EQ(dut["robot"]["holonomic"], false);
   EXPECT_EQ(dut["robot"]["turns_on_the_spot"], true);
   ASSERT_EQ(dut["hazards"].size(), 2u) << "one is not known";
@@ -198,9 +198,9 @@ TEST_F(ExternalPlanner, WorksInTheScenariosFolderAndMayBeAnInterpretersScript) {
   const PlanResult dut = MakePlan(scenario);
   EXPECT_EQ(dut.path.size(), 2u) << dut.message;
   EXPECT_EQ(Slurp(folder_ / "said"), "a b\n");
-  EXPECT_EQ(scenario.planner_name, "cover.sh");
-  EXPECT_THAT(scenario.plan_command->files, ElementsAre(folder_ / "cover.sh"));
-  EXPECT_THAT(ProgramLine(*scenario.plan_command),
+  EXPECT_EQ(scenario.spec.planner_name, "cover.sh");
+  EXPECT_THAT(scenario.spec.plan_command->files, ElementsAre(folder_ / "cover.sh"));
+  EXPECT_THAT(ProgramLine(*scenario.spec.plan_command),
               AllOf(StartsWith("runs a program that "), HasSubstr("scenario.yaml:"),
                     HasSubstr("names: sh cover.sh 'a b'")));
 }
@@ -219,7 +219,7 @@ TEST_F(ExternalPlanner, ARecordedPlanStandsInForTheProgram) {
   const Scenario again = ReadScenario(resolved);
   EXPECT_EQ(ProgramToAsk(again), nullptr);
   EXPECT_EQ(PlanCsv(MakePlan(again).path), PlanCsv(plan.path));
-  EXPECT_EQ(again.planner_name, "plan.sh") << "who made it is still said";
+  EXPECT_EQ(again.spec.planner_name, "plan.sh") << "who made it is still said";
   EXPECT_EQ(ResolvedScenario(again, folder_ / "moved"), Slurp(resolved));
   EXPECT_EQ(Asked(), 1);
 }
@@ -237,9 +237,10 @@ TEST_F(ExternalPlanner, WithoutAPlanTheSettingsNameTheProgram) {
   WritePlanFiles(scenario, MakePlan(scenario), folder_ / "out");
   const Scenario again = ReadScenario(folder_ / "out" / "scenario.resolved.yaml", {}, Trust::kFull);
   ASSERT_NE(ProgramToAsk(again), nullptr);
-  EXPECT_EQ(again.plan_command->timeout_s, 5);
-  EXPECT_TRUE(again.plan_command->uses_seed);
-  EXPECT_TRUE(fs::equivalent(again.plan_command->folder, folder_)) << again.plan_command->folder;
+  EXPECT_EQ(again.spec.plan_command->timeout_s, 5);
+  EXPECT_TRUE(again.spec.plan_command->uses_seed);
+  EXPECT_TRUE(fs::equivalent(again.spec.plan_command->folder, folder_))
+      << again.spec.plan_command->folder;
   EXPECT_EQ(MakePlan(again).message, "plan.sh ended with status 1");
 }
 
@@ -248,8 +249,8 @@ TEST_F(ExternalPlanner, SettingOneTakesAnotherWhosePlanAway) {
   const std::string asks = Asks(kSaysPlan), drives = RoomScenario("");
   EXPECT_NE(ProgramToAsk(Read(drives, {{"plan.command", "[./plan.sh]"}})), nullptr);
   EXPECT_EQ(ProgramToAsk(Read(asks, {{"plan.file", "plan.csv"}})), nullptr);
-  EXPECT_EQ(Read(asks, {{"plan.planner", "spiral"}}).planner_name, "spiral");
-  EXPECT_EQ(Read(asks, {{"plan.timeout_s", "3"}}).plan_command->timeout_s, 3);
+  EXPECT_EQ(Read(asks, {{"plan.planner", "spiral"}}).spec.planner_name, "spiral");
+  EXPECT_EQ(Read(asks, {{"plan.timeout_s", "3"}}).spec.plan_command->timeout_s, 3);
 }
 
 TEST_F(ExternalPlanner, ACampaignAsksAnewWhenWhatItIsToldChanges) {
@@ -272,7 +273,7 @@ TEST_F(ExternalPlanner, ItsSeedIsTheEpisodesOwnWhereItUsesOne) {
       draws(Save("d.yaml", Asks(kSaysPlan, ", uses_seed: true", "seed: 7\n")));
   const auto seed = [](const ScenarioFile& file, std::uint64_t episode) {
     const Scenario s = file.Read(episode);
-    return ProgramSeed(s, *s.plan_command);
+    return ProgramSeed(s, *s.spec.plan_command);
   };
   EXPECT_EQ(seed(plain, 0), 7u);
   EXPECT_EQ(seed(plain, 1), 7u);

@@ -47,10 +47,10 @@ randomise: {faults.old.onset_s: {uniform: [1, 9]}, faults.0.voltage_share: {unif
 )"));
   const floorproof::ScenarioFile file(folder_ / "scenario.yaml");
   const Scenario one = file.Read(0), two = file.Read(1);
-  EXPECT_NE(one.faults[0].timing.onset_s, two.faults[0].timing.onset_s);
-  EXPECT_GE(one.faults[0].timing.onset_s, 1);
+  EXPECT_NE(one.world.faults[0].timing.onset_s, two.world.faults[0].timing.onset_s);
+  EXPECT_GE(one.world.faults[0].timing.onset_s, 1);
   Alterations drawn;
-  one.faults[0].fault->Break(drawn);
+  one.world.faults[0].fault->Break(drawn);
   EXPECT_LT(drawn.battery_voltage, 0.9);
 }
 

@@ -128,7 +128,7 @@ TEST_F(FloorAuditTest, ARobotThatIsWrongAboutItsPlaceSamplesAnotherOne) {
     });
     EXPECT_NEAR(row->x_m, taken.stop.X_WB.x_m, 0.001);
     EXPECT_NEAR((taken.X_WT.p() - taken.stop.X_WB.p()).norm(),
-                dut.scenario.robot.spec.audit_sensor_x_m, 1e-9);
+                dut.scenario.world.robot.spec.audit_sensor_x_m, 1e-9);
   }
 }
 
@@ -256,7 +256,7 @@ class BreaksOff : public EpisodeObserver {
 TEST_F(FloorAuditTest, ASampleThatABumpBrokeOffIsTakenAfterAll) {
   Scenario s = Read(Room(kGiven, "dirt: {}\nreact: {}\non_failure: ignore"));
   // Carried a metre away, and pushed against a wall.
-  const double x_m = 3 - s.robot.spec.circumscribed_radius_m - 0.02;
+  const double x_m = 3 - s.world.robot.spec.circumscribed_radius_m - 0.02;
   BreaksOff bump(3, [x_m](mjData& d) {
     d.qpos[0] = x_m;
     d.qpos[3] = 1;
@@ -300,14 +300,14 @@ TEST_F(FloorAuditTest, TheResolvedScenarioReadsBackAsTheSame) {
                                "{rounds: 2, plan: spiral, push_m: 0.2}}"));
   const std::string resolved = ResolvedScenario(s, folder_);
   const Scenario again = Read(resolved);
-  ASSERT_TRUE(again.dirt);
-  EXPECT_EQ(again.dirt->params.laid.density_per_m2, 5000);
-  EXPECT_EQ(again.dirt->params.sampling.tape.side_m, 0.03);
-  EXPECT_EQ(again.dirt->cleaner_name, "spiral");
-  EXPECT_EQ(again.dirt->cleaning.rounds, 2);
-  EXPECT_EQ(again.dirt->cleaning.brush.push_m, 0.2);
+  ASSERT_TRUE(again.world.dirt);
+  EXPECT_EQ(again.world.dirt->params.laid.density_per_m2, 5000);
+  EXPECT_EQ(again.world.dirt->params.sampling.tape.side_m, 0.03);
+  EXPECT_EQ(again.world.dirt->cleaner_name, "spiral");
+  EXPECT_EQ(again.world.dirt->cleaning.rounds, 2);
+  EXPECT_EQ(again.world.dirt->cleaning.brush.push_m, 0.2);
   EXPECT_EQ(ResolvedScenario(again, folder_), resolved);
-  EXPECT_FALSE(Read(Room(kGiven, "dirt: null")).dirt);
+  EXPECT_FALSE(Read(Room(kGiven, "dirt: null")).world.dirt);
 }
 
 // Places that lie anywhere in their cells are no reason to stop within a wall.
@@ -320,12 +320,13 @@ TEST_F(FloorAuditTest, AFootprintIsClearOfWallsWhereverItsPlacesLie) {
     const PlanResult plan = MakePlan(s);
     ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
     // Walls of a drawn grid stand back from their cells' edges.
-    const Polygon clear_B = Offset(s.robot.spec.clear.footprint_B, -s.site.map.inset_m - 0.0005);
+    const Polygon clear_B =
+        Offset(s.world.robot.spec.clear.footprint_B, -s.world.site.map.inset_m - 0.0005);
     for (const Waypoint& w : plan.path) {
       if (!w.task) continue;
       ++stops;
       const Pose2 X_WB{w.p_W.x(), w.p_W.y(), w.yaw_rad.value_or(0)};
-      EXPECT_FALSE(TouchesWall(s.site.map, InWorld(X_WB, clear_B))) << seed << ": " << w.p_W;
+      EXPECT_FALSE(TouchesWall(s.world.site.map, InWorld(X_WB, clear_B))) << seed << ": " << w.p_W;
     }
   }
   EXPECT_GT(stops, 30);

@@ -165,16 +165,16 @@ TEST_F(FmeaFile, WhatIsOfAnotherKindIsRefused) {
 
 TEST_F(FmeaFile, AScenarioHasThePapersRiskUnlessItSaysElse) {
   const Scenario dut = Read(RoomScenario(""));
-  ExpectEqual(dut.fmea, PaperTables());
-  EXPECT_EQ(dut.risk.distance_scale, 1);
-  EXPECT_FALSE(dut.risk.walls_are_hazards);
-  EXPECT_FALSE(dut.risk.cell_m);
+  ExpectEqual(dut.spec.fmea, PaperTables());
+  EXPECT_EQ(dut.spec.risk.distance_scale, 1);
+  EXPECT_FALSE(dut.spec.risk.walls_are_hazards);
+  EXPECT_FALSE(dut.spec.risk.cell_m);
   const Scenario other =
       Read(RoomScenario("", "risk: {tables: htetro, cell_m: 1, walls_are_hazards: true}\n"),
            {{"risk.distance_scale", "20"}});
-  EXPECT_EQ(other.risk.distance_scale, 20);
-  EXPECT_TRUE(other.risk.walls_are_hazards);
-  EXPECT_EQ(other.risk.cell_m, 1);
+  EXPECT_EQ(other.spec.risk.distance_scale, 20);
+  EXPECT_TRUE(other.spec.risk.walls_are_hazards);
+  EXPECT_EQ(other.spec.risk.cell_m, 1);
   EXPECT_EQ(MakePlan(other).risk->grid.frame.cell_m, 1);
   EXPECT_GT(MakePlan(other).risk->rf(4, 2), 0) << "outer walls are all that there is";
   EXPECT_EQ(MakePlan(dut).risk->rf(4, 2), 0);
@@ -234,10 +234,10 @@ TEST_F(FmeaFile, ResolvedTwiceIsItself) {
   WriteFileWhole(out / "scenario.resolved.yaml", once);
   const Scenario second = ReadScenario(out / "scenario.resolved.yaml", {}, Trust::kFull);
   EXPECT_EQ(ResolvedScenario(second, out), once);
-  EXPECT_EQ(second.fmea.severity[4], 6);
-  EXPECT_EQ(second.risk.distance_scale, 2.5);
-  EXPECT_EQ(second.risk.cell_m, 0.75);
-  EXPECT_TRUE(second.risk.walls_are_hazards);
+  EXPECT_EQ(second.spec.fmea.severity[4], 6);
+  EXPECT_EQ(second.spec.risk.distance_scale, 2.5);
+  EXPECT_EQ(second.spec.risk.cell_m, 0.75);
+  EXPECT_TRUE(second.spec.risk.walls_are_hazards);
   // The file is one of those that the run hangs on.
   Save("mine.yaml", With("severity: 5", "severity: 7"));
   try {

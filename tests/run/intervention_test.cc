@@ -235,7 +235,7 @@ TEST_F(AssistTest, NoDetectorIsAskedInBetweenAndAllStartAfresh) {
   Tumbler tumbler([](const EpisodeView& now) { return now.sample.t_s > 25; });
   Scenario scenario = Read(RoomScenario(Barrier(3), kAssist));
   Asked asked;
-  scenario.detectors.push_back({"witness", std::make_unique<Witness>(asked)});
+  scenario.agents.detectors.push_back({"witness", std::make_unique<Witness>(asked)});
   const EpisodeRecord dut = Drive(std::move(scenario), &tumbler);
   ASSERT_THAT(dut.events, SizeIs(1));
   ASSERT_THAT(dut.interventions, SizeIs(1));
@@ -312,7 +312,7 @@ TEST_F(AssistTest, PastTheLastWaypointNobodyCanHelp) {
   Sample failed;
   failed.p_WB = {6, 3.2, 0};
   failed.battery_v = 12;
-  EXPECT_FALSE(dut.Call({scenario.user_plan.back()}, failed));
+  EXPECT_FALSE(dut.Call({scenario.spec.user_plan.back()}, failed));
   EXPECT_FALSE(dut.awaited());
   EXPECT_EQ(dut.why_not(),
             "nowhere ahead of x 6.00, y 3.20 m could the robot be set down: no waypoint is left");

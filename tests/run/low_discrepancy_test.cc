@@ -213,9 +213,9 @@ TEST_F(EvenlyDrawn, WhatIsSetMovesNoOthersPoint) {
       "site.floor.friction: {uniform: [0.4, 1]}}\n");
   const Scenario all = ScenarioFile(file).Read(6);
   const Scenario set = ScenarioFile(file, {{"start.y_m", "2.25"}}).Read(6);
-  ASSERT_EQ(set.drawn.size(), 2u);
-  EXPECT_EQ(set.start.x_m, all.start.x_m);
-  EXPECT_EQ(set.site.map.floor_friction, all.site.map.floor_friction);
+  ASSERT_EQ(set.spec.drawn.size(), 2u);
+  EXPECT_EQ(set.world.start.x_m, all.world.start.x_m);
+  EXPECT_EQ(set.world.site.map.floor_friction, all.world.site.map.floor_friction);
 }
 
 // A drawn site's keys leave `randomise` when an episode's scenario is resolved: the others' points
@@ -230,8 +230,8 @@ TEST_F(EvenlyDrawn, AResolvedEpisodeIsTheSameEpisode) {
   const std::string text = ResolvedScenario(whole, folder_);
   EXPECT_THAT(text, HasSubstr("sampling: low_discrepancy"));
   const Scenario again = ReadScenario(Save("r.yaml", text));
-  ASSERT_EQ(again.drawn.size(), 1u);
-  EXPECT_EQ(again.site.map.floor_friction, whole.site.map.floor_friction);
+  ASSERT_EQ(again.spec.drawn.size(), 1u);
+  EXPECT_EQ(again.world.site.map.floor_friction, whole.world.site.map.floor_friction);
   EXPECT_EQ(ResolvedScenario(again, folder_), text);
 }
 

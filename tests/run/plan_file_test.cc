@@ -124,13 +124,13 @@ plan: )" + plan +
 TEST_F(AuditScenario, PlacesOfTheUsersStandInForThoseFound) {
   Save("points.csv", "x_m,y_m\n1,2\n2,1\n");
   const Scenario s = Read(With("{planner: audit, samples: {file: points.csv}}"));
-  EXPECT_EQ(s.places, (std::vector<Vec2>{{1, 2}, {2, 1}}));
+  EXPECT_EQ(s.spec.places, (std::vector<Vec2>{{1, 2}, {2, 1}}));
   const std::vector<std::filesystem::path> files = FilesRead(s);
-  EXPECT_TRUE(std::ranges::find(files, s.places_file) != files.end());
+  EXPECT_TRUE(std::ranges::find(files, s.spec.places_file) != files.end());
   const std::string resolved = ResolvedScenario(s, folder_);
   EXPECT_THAT(resolved, HasSubstr("points.csv"));
   const Scenario again = Read(resolved);
-  EXPECT_EQ(again.places, s.places);
+  EXPECT_EQ(again.spec.places, s.spec.places);
   EXPECT_EQ(ResolvedScenario(again, folder_), resolved);
 }
 
@@ -143,8 +143,8 @@ TEST_F(AuditScenario, AFileThatTheMatrixSetsIsReadBackFromTheResolvedScenario) {
   const std::string resolved = ResolvedScenario(first.Read(0, first.variants()[0]), folder_);
   const ScenarioFile again(Save("scenario.yaml", resolved));
   ASSERT_EQ(again.variants().size(), 2u);
-  EXPECT_EQ(again.Read(0, again.variants()[0]).places.size(), 2u);
-  EXPECT_EQ(again.Read(0, again.variants()[1]).places.size(), 3u);
+  EXPECT_EQ(again.Read(0, again.variants()[0]).spec.places.size(), 2u);
+  EXPECT_EQ(again.Read(0, again.variants()[1]).spec.places.size(), 3u);
 }
 
 TEST_F(AuditScenario, WhatStandsBesideThatFileIsRefused) {

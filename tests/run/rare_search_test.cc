@@ -65,7 +65,8 @@ TEST_F(RareTest, NoiseIsAnEpisode) {
   const Drawn set = dut.AsSet({Eigen::VectorXd::Zero(dut.size()), 77});
   EXPECT_EQ(set.front().first, "episode");
   EXPECT_EQ(set.front().second.scalar, "77");
-  EXPECT_EQ(file.ReadDrawn(77, dut.DrawnAt(Eigen::VectorXd::Zero(dut.size()))).episode_id, 77u);
+  EXPECT_EQ(file.ReadDrawn(77, dut.DrawnAt(Eigen::VectorXd::Zero(dut.size()))).spec.episode_id,
+            77u);
 }
 
 // Without noise as written, but what is drawn brings it.
@@ -112,7 +113,8 @@ TEST_F(RareTest, ACampaignDoesNotJudgeAGateThatIsNotItsOwn) {
 
 TEST_F(RareTest, AModeThatNoDetectorMeasuresIsRefused) {
   Scenario scenario = File().Read(std::nullopt);
-  std::erase_if(scenario.detectors, [](const NamedDetector& d) { return d.name == "stuck"; });
+  std::erase_if(scenario.agents.detectors,
+                [](const NamedDetector& d) { return d.name == "stuck"; });
   EXPECT_NO_THROW(RareScore("veer_off", scenario));
   EXPECT_THROW(RareScore("stuck", scenario), InputError);
 }

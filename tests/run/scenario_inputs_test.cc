@@ -110,13 +110,14 @@ class ScenarioInputs : public ScenarioTest {
   }
   static std::string Read(const ScenarioFile& file, std::optional<std::uint64_t> episode = 0) {
     const Scenario s = file.Read(episode);
-    return std::to_string(s.robot.spec.mass_kg) + " kg, " + std::to_string(s.site.map.frame.width) +
-           " cells, to y " + std::to_string(s.user_plan.back().p_W.y());
+    return std::to_string(s.world.robot.spec.mass_kg) + " kg, " +
+           std::to_string(s.world.site.map.frame.width) + " cells, to y " +
+           std::to_string(s.spec.user_plan.back().p_W.y());
   }
   // Built, as an episode is: meshes are read by the compiler.
   static double MassOfScene(const ScenarioFile& file) {
     const Scenario s = file.Read();
-    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+    const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
     return scene.model->body_subtreemass[scene.base_body];
   }
   std::vector<std::string> FilesListed(const std::string& resolved) const {
@@ -169,13 +170,13 @@ TEST_F(ScenarioInputs, WhatIsSetIsNotDrawnNorInTheRecord) {
            {{"site.floor.friction", "0.3"}},
            {{"site.floor.friction", "0.3"}, {"start", "{x_m: 1.1, y_m: 1, yaw_deg: 0}"}}}) {
     const Scenario driven = ScenarioFile(folder_ / "in/drawn.yaml", set).Read();
-    EXPECT_EQ(driven.site.map.floor_friction, 0.3);
-    EXPECT_EQ(driven.drawn.size(), 2 - set.size());
+    EXPECT_EQ(driven.world.site.map.floor_friction, 0.3);
+    EXPECT_EQ(driven.spec.drawn.size(), 2 - set.size());
     WriteResolvedScenario(driven, folder_ / "out");
     const Scenario again = ScenarioFile(folder_ / "out/scenario.resolved.yaml").Read();
-    EXPECT_EQ(again.site.map.floor_friction, 0.3);
-    EXPECT_EQ(again.start.x_m, driven.start.x_m);
-    EXPECT_EQ(again.drawn.size(), driven.drawn.size());
+    EXPECT_EQ(again.world.site.map.floor_friction, 0.3);
+    EXPECT_EQ(again.world.start.x_m, driven.world.start.x_m);
+    EXPECT_EQ(again.spec.drawn.size(), driven.spec.drawn.size());
   }
 }
 
@@ -195,7 +196,7 @@ TEST_F(ScenarioInputs, PathsAreTheScenariosWhereverTheyAreWritten) {
   const auto widths = [](const ScenarioFile& file) {
     std::vector<double> cells_m;
     for (const Variant& variant : file.variants())
-      cells_m.push_back(file.Read(0, variant).site.map.frame.cell_m);
+      cells_m.push_back(file.Read(0, variant).world.site.map.frame.cell_m);
     return cells_m;
   };
   const std::vector<std::pair<std::string, std::vector<double>>> cases = {
@@ -237,10 +238,10 @@ TEST_F(ScenarioInputs, ADrawnStartOfTheSiteIsDrawnAgain) {
                                   "y_m: 1}}\nrobot: beluga\ndrive: none\n") +
                           draws + "\n");
     const ScenarioFile file(folder_ / "in/s.yaml");
-    ASSERT_EQ(file.Read(0, file.variants().front()).start.x_m, 1.5);
+    ASSERT_EQ(file.Read(0, file.variants().front()).world.start.x_m, 1.5);
     WriteResolvedScenario(file.Read(std::nullopt), folder_ / "out", file.files().All());
     const ScenarioFile again(folder_ / "out/scenario.resolved.yaml");
-    EXPECT_EQ(again.Read(0, again.variants().front()).start.x_m, 1.5);
+    EXPECT_EQ(again.Read(0, again.variants().front()).world.start.x_m, 1.5);
   }
 }
 
@@ -285,9 +286,9 @@ TEST_F(ScenarioInputs, TheRobotThatIsHashedIsTheOneThatIsRead) {
          "start: {x_m: 1, "
          "y_m: 0.7}}\nrobot: ../r/mine.xml\n";
   const Scenario dut = ScenarioFile(folder_ / "link/s.yaml", {}, Trust::kFull).Read();
-  EXPECT_EQ(dut.files.Sha256(dut.robot_file), Sha256(text));
-  ASSERT_EQ(dut.robot.files.size(), 1u);
-  EXPECT_EQ(fs::canonical(dut.robot.files[0]), fs::canonical(folder_ / "real/r/mine.xml"));
+  EXPECT_EQ(dut.files.Sha256(dut.spec.robot_file), Sha256(text));
+  ASSERT_EQ(dut.world.robot.files.size(), 1u);
+  EXPECT_EQ(fs::canonical(dut.world.robot.files[0]), fs::canonical(folder_ / "real/r/mine.xml"));
 }
 
 // What the program trusts as its own is its own.

@@ -30,8 +30,8 @@ TEST_F(ScenarioFile, OverridesReachIntoScenarioAndSite) {
                                                {"trace_hz", "25"},
                                                {"site.floor.friction", "0.5"},
                                                {"failures.stuck.turn_rad", "0.7"}});
-  EXPECT_EQ(dut.episode.control_hz, 25);
-  EXPECT_EQ(dut.site.map.floor_friction, 0.5);
+  EXPECT_EQ(dut.spec.episode.control_hz, 25);
+  EXPECT_EQ(dut.world.site.map.floor_friction, 0.5);
 }
 
 // Trackers cap what is asked for: that it is not driven so fast is said.
@@ -43,7 +43,7 @@ TEST_F(ScenarioFile, ASpeedThatTheRobotDoesNotHaveIsSaid) {
     for (const std::string& line : Warnings(Read(RoomScenario("", more)))) said += line + "\n";
     return said;
   };
-  const double most_mps = Read(RoomScenario("")).robot.spec.max_speed_mps;
+  const double most_mps = Read(RoomScenario("")).world.robot.spec.max_speed_mps;
   EXPECT_EQ(warnings(most_mps), "");
   EXPECT_THAT(warnings(2), HasSubstr("plan.csv, 1 of 4 waypoints from number 3 on: speed_mps of up "
                                      "to 2 m/s is more than beluga drives: "));
@@ -76,22 +76,22 @@ TEST_F(ScenarioFile, ResolvedTwiceIsItself) {
   const Scenario second =
       ReadScenario(folder_ / "out" / "scenario.resolved.yaml", {}, Trust::kFull);
   EXPECT_EQ(ResolvedScenario(second, folder_ / "out"), once);
-  EXPECT_EQ(second.start.yaw_rad, first.start.yaw_rad) << "to the bit";
+  EXPECT_EQ(second.world.start.yaw_rad, first.world.start.yaw_rad) << "to the bit";
 }
 
 TEST_F(ScenarioFile, AGeneratedSiteIsResolvedAsDrawn) {
   const std::string text =
       "scenario: 1\nrobot: beluga\ndrive: none\nsite: {site: 1, generate: {kind: room}}\n";
   const Scenario first = Read(text, {{"seed", "3"}, {"site.generate.cells", "[12, 9]"}});
-  EXPECT_EQ(first.site.map.frame.width, 12);
+  EXPECT_EQ(first.world.site.map.frame.width, 12);
   const std::string once = ResolvedScenario(first, folder_);
   const Scenario second = Read(once);
-  EXPECT_EQ(second.site.map.occupancy.cells, first.site.map.occupancy.cells);
-  EXPECT_EQ(second.start.x_m, first.start.x_m);
-  EXPECT_EQ(second.goal, first.goal);
+  EXPECT_EQ(second.world.site.map.occupancy.cells, first.world.site.map.occupancy.cells);
+  EXPECT_EQ(second.world.start.x_m, first.world.start.x_m);
+  EXPECT_EQ(second.world.goal, first.world.goal);
   EXPECT_EQ(ResolvedScenario(second, folder_), once);
-  EXPECT_NE(Read(text, {{"seed", "4"}}).site.map.occupancy.cells,
-            Read(text, {{"seed", "3"}}).site.map.occupancy.cells);
+  EXPECT_NE(Read(text, {{"seed", "4"}}).world.site.map.occupancy.cells,
+            Read(text, {{"seed", "3"}}).world.site.map.occupancy.cells);
 }
 
 // Its keys may be drawn; the site stands drawn in the resolved file, and takes none.
@@ -102,8 +102,8 @@ TEST_F(ScenarioFile, AGeneratedSiteOfDrawnKeysIsReadAgainAsItWas) {
       "start.yaw_deg: {uniform: [0, 90]}}\n");
   const std::string once = ResolvedScenario(first, folder_);
   const Scenario second = Read(once);
-  EXPECT_EQ(second.site.map.occupancy.cells, first.site.map.occupancy.cells);
-  EXPECT_EQ(second.start.yaw_rad, first.start.yaw_rad) << "drawn again as before";
+  EXPECT_EQ(second.world.site.map.occupancy.cells, first.world.site.map.occupancy.cells);
+  EXPECT_EQ(second.world.start.yaw_rad, first.world.start.yaw_rad) << "drawn again as before";
   EXPECT_EQ(ResolvedScenario(second, folder_), once);
   EXPECT_THAT(once, ::testing::Not(HasSubstr("site.generate")));
 }
@@ -120,7 +120,7 @@ TEST_F(ScenarioFile, ItsVariantsMayHaveOtherPlannersOnceItIsResolved) {
   ASSERT_EQ(again.variants().size(), 2u);
   for (const Variant& variant : again.variants()) {
     const Scenario dut = again.Read(0, variant);
-    EXPECT_EQ(dut.online->params().radius_m, 2.5) << dut.planner_name;
+    EXPECT_EQ(dut.agents.online->params().radius_m, 2.5) << dut.spec.planner_name;
   }
   EXPECT_EQ(ResolvedScenario(again.Read(std::nullopt), folder_), once);
 }
@@ -129,13 +129,13 @@ TEST_F(ScenarioFile, WheelsAreIdealOrHaveRollersThatAreBodies) {
   const std::vector<Override> htetro = {{"robot", "htetro"}, {"wheels", "rollers"}};
   const Scenario dut = Read(RoomScenario(""), htetro);
   const Scenario ideal = Read(RoomScenario(""), {{"robot", "htetro"}});
-  EXPECT_EQ(ideal.episode.wheels, "ideal");
+  EXPECT_EQ(ideal.spec.episode.wheels, "ideal");
   EXPECT_THAT(ResolvedScenario(dut, folder_), HasSubstr("wheels: \"rollers\""));
   const auto bodies = [](const Scenario& s) {
-    return BuildScene(s.site.map, s.robot, s.physics, s.start).model->nbody;
+    return BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start).model->nbody;
   };
   EXPECT_GE(bodies(dut), bodies(ideal) + 16 * 8);
-  EXPECT_EQ(dut.robot.spec.mass_kg, ideal.robot.spec.mass_kg);
+  EXPECT_EQ(dut.world.robot.spec.mass_kg, ideal.world.robot.spec.mass_kg);
   EXPECT_THAT(Refusal(RoomScenario("", "wheels: rollers\n")),
               HasSubstr("wheels = rollers: must be ideal: the wheels of beluga have no rollers"));
   EXPECT_THAT(Refusal(RoomScenario("", "wheels: round\n")),

@@ -29,7 +29,7 @@ class SensingTest : public ScenarioTest {
 
   static std::vector<std::string> Carried(const Scenario& s) {
     std::vector<std::string> names;
-    for (const NamedSensor& sensor : s.sensors) names.push_back(sensor.name);
+    for (const NamedSensor& sensor : s.agents.sensors) names.push_back(sensor.name);
     return names;
   }
   // A parameter of a plug-in, as it is written.
@@ -39,7 +39,7 @@ class SensingTest : public ScenarioTest {
     return node.Find(key)->scalar;
   }
   static Sensor& SensorOf(const Scenario& s, const std::string& name) {
-    return *std::ranges::find(s.sensors, name, &NamedSensor::name)->sensor;
+    return *std::ranges::find(s.agents.sensors, name, &NamedSensor::name)->sensor;
   }
   // The room with these keys, driven.
   EpisodeRecord DriveRoom(const std::string& keys, const std::vector<Override>& overrides = {}) {
@@ -110,16 +110,16 @@ TEST_F(SensingTest, OfEachReadingThereIsOneSensor) {
 
 TEST_F(SensingTest, WhoReactsKeepsWhatItMet) {
   const Scenario dut = Read(RoomScenario("", "react: {}\n"));
-  EXPECT_TRUE(dut.recovery);
-  EXPECT_TRUE(dut.mapper);
+  EXPECT_TRUE(dut.agents.recovery);
+  EXPECT_TRUE(dut.agents.mapper);
 }
 
 TEST_F(SensingTest, WithoutTheirKeysThereIsNone) {
   const Scenario dut = Read(RoomScenario(""));
-  EXPECT_EQ(dut.estimator_name, "truth");
+  EXPECT_EQ(dut.spec.estimator_name, "truth");
   EXPECT_THAT(Carried(dut), ElementsAre("truth")) << "which its estimator goes by";
-  EXPECT_FALSE(dut.mapper);
-  EXPECT_FALSE(dut.recovery);
+  EXPECT_FALSE(dut.agents.mapper);
+  EXPECT_FALSE(dut.agents.recovery);
   const std::string resolved = ResolvedScenario(dut, folder_);
   for (const char* key : {"\nsensors:", "\nmapper:", "\nreact:"})
     EXPECT_THAT(resolved, Not(HasSubstr(key)));
@@ -180,15 +180,15 @@ TEST_F(SensingTest, ErrorsAreDrawnAnewInEachEpisode) {
   std::vector<std::string> before;
   for (const std::uint64_t episode : {0u, 1u, 2u}) {
     const Scenario s = file.Read(episode);
-    ASSERT_EQ(s.drawn.size(), 4u);
+    ASSERT_EQ(s.spec.drawn.size(), 4u);
     EXPECT_THAT(Carried(s), ElementsAre("lidar", "encoders", "imu"));
     const std::vector<std::string> values = {
-        Value(*s.estimator, "start_error_x_m"), Value(SensorOf(s, "encoders"), "bias"),
+        Value(*s.agents.estimator, "start_error_x_m"), Value(SensorOf(s, "encoders"), "bias"),
         Value(SensorOf(s, "encoders"), "noise"), Value(SensorOf(s, "lidar"), "noise_m")};
     for (std::size_t i = 0; i < values.size(); ++i) {
-      EXPECT_EQ(values[i], s.drawn[i].second.scalar) << s.drawn[i].first;
+      EXPECT_EQ(values[i], s.spec.drawn[i].second.scalar) << s.spec.drawn[i].first;
       if (!before.empty()) {
-        EXPECT_NE(values[i], before[i]) << s.drawn[i].first;
+        EXPECT_NE(values[i], before[i]) << s.spec.drawn[i].first;
       }
     }
     before = values;

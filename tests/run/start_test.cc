@@ -100,9 +100,9 @@ TEST_F(StartTest, PlansStayOnTheFloorOfTheStart) {
     const PlanResult dut = MakePlan(s);
     ASSERT_EQ(dut.status, PlanStatus::kSuccess) << dut.message;
     for (const Waypoint& w : dut.path)
-      EXPECT_LT(SignedDistance(s.site.map.hazards[0].footprint[0], w.p_W),
-                -s.robot.spec.inscribed_radius_m);
-    EXPECT_GT(Length(dut.path) * s.robot.spec.tool_width_m, 0.8 * 5.25 * 3.25) << height_m;
+      EXPECT_LT(SignedDistance(s.world.site.map.hazards[0].footprint[0], w.p_W),
+                -s.world.robot.spec.inscribed_radius_m);
+    EXPECT_GT(Length(dut.path) * s.world.robot.spec.tool_width_m, 0.8 * 5.25 * 3.25) << height_m;
   }
 }
 
@@ -179,8 +179,8 @@ TEST_F(StartTest, FromAnAisleTooNarrowToTurnThePlanLeadsStraightAhead) {
   const PlanResult dut = MakePlan(s);
   ASSERT_EQ(dut.status, PlanStatus::kSuccess) << dut.message;
   EXPECT_THAT(dut.message, HasSubstr("straight ahead"));
-  EXPECT_EQ(dut.path.front().p_W, s.start.p());
-  EXPECT_NEAR(dut.path[1].p_W.y(), s.start.y_m, 1e-6);
+  EXPECT_EQ(dut.path.front().p_W, s.world.start.p());
+  EXPECT_NEAR(dut.path[1].p_W.y(), s.world.start.y_m, 1e-6);
   EXPECT_GT(dut.path[1].p_W.x(), 2.5);
   EXPECT_GT(PlanJson(s, dut, nullptr)["coverage"].get<double>(), 0.9);
   const PlanResult back = MakePlan(Read(aisle(180)));
@@ -208,9 +208,9 @@ TEST_F(StartTest, OnRoughGroundItStandsStill) {
     Scenario s = Read(RoomScenario("{type: rough, amplitude_m: 0.003, wavelength_m: 0.07, "
                                    "polygon_m: [[0.75,1.5],[3,1.5],[3,3.5],[0.75,3.5]]}"),
                       {{"robot", robot}});
-    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
-    Simulation dut(scene, s.site.map, s.robot.spec);
-    dut.Reset(s.start);
+    const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
+    Simulation dut(scene, s.world.site.map, s.world.robot.spec);
+    dut.Reset(s.world.start);
     const Vec3 stood_W = dut.truth().p_WB;
     for (int i = 0; i < 250; ++i) ASSERT_TRUE(dut.Step());
     EXPECT_LT((dut.truth().p_WB - stood_W).norm(), 0.003) << robot;

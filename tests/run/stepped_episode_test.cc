@@ -30,11 +30,11 @@ class SteppedEpisodeTest : public ScenarioTest {
 
   // Driven freely with this twist for so long, or until it ends.
   EpisodeRecord GoFreely(Scenario& s, const BodyTwist& twist, double for_s) const {
-    s.tracker = std::make_unique<Constant>(twist);
+    s.agents.tracker = std::make_unique<Constant>(twist);
     PlanResult plan = MakePlan(s);
     plan.path.resize(1);
-    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
-    SteppedEpisode dut(s, scene, plan, std::make_unique<FreeNavigator>(s.start));
+    const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
+    SteppedEpisode dut(s, scene, plan, std::make_unique<FreeNavigator>(s.world.start));
     std::optional<Outcome> ended;
     while (!ended && dut.view().sample.t_s < for_s) ended = dut.Advance();
     return dut.Finish(ended.value_or(Outcome::kInterrupted));
@@ -47,13 +47,13 @@ TEST_F(SteppedEpisodeTest, StepsGiveTheBytesOfTheWholeDrive) {
     Scenario whole = Read(RoomScenario("", more)), s = Read(RoomScenario("", more));
     const EpisodeRecord expected = Execute(whole).record;
     const PlanResult plan = MakePlan(s);
-    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+    const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
     SteppedEpisode dut(s, scene, plan);
     std::optional<Outcome> ended;
     while (!ended) ended = dut.Advance();
     EXPECT_EQ(*ended, Outcome::kSuccess);
     const EpisodeRecord record = dut.Finish(*ended);
-    EXPECT_EQ(TraceCsv(record, s.robot.spec), TraceCsv(expected, whole.robot.spec));
+    EXPECT_EQ(TraceCsv(record, s.world.robot.spec), TraceCsv(expected, whole.world.robot.spec));
     EXPECT_EQ(ResultJson(s, record).dump(), ResultJson(whole, expected).dump());
     EXPECT_EQ(record.passes.cells, expected.passes.cells);
   }
@@ -90,10 +90,10 @@ TEST_F(SteppedEpisodeTest, AFreeDriveEndsWhereEnoughIsCovered) {
 // Whoever commands each period sees no period in which nothing is driven.
 TEST_F(SteppedEpisodeTest, TheTimeLimitEndsThePeriodThatReachesIt) {
   Scenario s = Read(RoomScenario("", "time_limit_s: 0.5\n"));
-  s.tracker = std::make_unique<Constant>(BodyTwist{0.2, 0, 0});
+  s.agents.tracker = std::make_unique<Constant>(BodyTwist{0.2, 0, 0});
   const PlanResult plan = MakePlan(s);
-  const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
-  SteppedEpisode dut(s, scene, plan, std::make_unique<FreeNavigator>(s.start));
+  const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
+  SteppedEpisode dut(s, scene, plan, std::make_unique<FreeNavigator>(s.world.start));
   std::optional<Outcome> ended;
   int periods = 0;
   for (double before_s = 0; !ended; before_s = dut.view().sample.t_s, ++periods) {
@@ -107,9 +107,9 @@ TEST_F(SteppedEpisodeTest, TheTimeLimitEndsThePeriodThatReachesIt) {
 // A failure breaks a period off; the record is the same whether or not somebody looks once more.
 TEST_F(SteppedEpisodeTest, AfterItsEndWhatIsSensedIsOfTheEnd) {
   Scenario s = Read(RoomScenario("", "sensors: {lidar: {rate_hz: 100}}\nmapper: {}\n"));
-  s.tracker = std::make_unique<Constant>(BodyTwist{0.25, 0, 0.6});
+  s.agents.tracker = std::make_unique<Constant>(BodyTwist{0.25, 0, 0.6});
   const PlanResult plan = MakePlan(s);
-  const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+  const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
   SteppedEpisode dut(s, scene, plan);  // which it leaves
   std::optional<Outcome> ended;
   while (!ended) ended = dut.Advance();

@@ -201,7 +201,7 @@ TEST_F(SupervisedDrive, AMissionOfGoTosIsDrivenWithoutAPlan) {
   for (const char* robot : {"beluga", "htetro"}) {
     Scenario scenario = Read(text, {{"robot", robot}});
     EXPECT_TRUE(LeadsItself(scenario));
-    EXPECT_EQ(scenario.user_plan.size(), 2u);
+    EXPECT_EQ(scenario.spec.user_plan.size(), 2u);
     const EpisodeRecord dut = Drive(std::move(scenario));
     EXPECT_EQ(dut.outcome, Outcome::kSuccess) << robot << dut.message;
     const TraceRow& end = dut.trace.back();
@@ -314,13 +314,13 @@ TEST_F(SupervisedDrive, MonitorsOfWhatItDoesNotCarryAreLeftOut) {
   const auto names = [&](const std::string& more) {
     const Scenario scenario = Read(RoomScenario("", "safety: {}\n" + more));
     std::vector<std::string> kept;
-    for (const NamedMonitor& m : scenario.safety->monitors) kept.push_back(m.name);
+    for (const NamedMonitor& m : scenario.agents.safety->monitors) kept.push_back(m.name);
     return kept;
   };
   EXPECT_THAT(names(""), testing::Not(Contains("scan_signal"))) << "no lidar for its sake";
   EXPECT_THAT(names(""), Contains("motor_current"));
   EXPECT_THAT(names("estimator: mcl\n"), Contains("scan_signal"));
-  EXPECT_THAT(Read(RoomScenario("", "safety: {monitors: {tilt: none}}\n")).safety->monitors,
+  EXPECT_THAT(Read(RoomScenario("", "safety: {monitors: {tilt: none}}\n")).agents.safety->monitors,
               testing::Not(Contains(Field(&NamedMonitor::name, "tilt"))));
 }
 

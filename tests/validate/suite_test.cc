@@ -84,10 +84,11 @@ TEST(Methods, LayOutScenariosThatCanBeRead) {
         if (sizes) run.size = sizes->Size(hard ? sizes->rungs.last : sizes->rungs.first);
         WriteRun(entry, robot, name, run, Quick(), folder);
         const Scenario scenario = ReadScenario(folder / kRunFile);
-        EXPECT_EQ(scenario.site.map.floor_friction, run.draw.friction) << entry.name;
-        EXPECT_NEAR(scenario.robot.spec.mass_kg, run.draw.mass_share * robot.spec.mass_kg, 1e-9);
-        EXPECT_TRUE(scenario.site.warnings.empty())
-            << entry.name << " " << scenario.site.warnings[0];
+        EXPECT_EQ(scenario.world.site.map.floor_friction, run.draw.friction) << entry.name;
+        EXPECT_NEAR(scenario.world.robot.spec.mass_kg, run.draw.mass_share * robot.spec.mass_kg,
+                    1e-9);
+        EXPECT_TRUE(scenario.world.site.warnings.empty())
+            << entry.name << " " << scenario.world.site.warnings[0];
       }
     }
   }
@@ -105,8 +106,8 @@ TEST(Methods, ARunsScenarioHasWhatWasSet) {
   const SuiteRun run{.run = 1, .size = 3, .draw = DrawRun(0, "step", 1)};
   WriteRun(entry, robot, "beluga", run, options, folder);
   const Scenario dut = ReadScenario(folder / kRunFile);
-  EXPECT_EQ(dut.site.map.floor_friction, 0.05);
-  EXPECT_NEAR(dut.robot.spec.mass_kg, 30, 1e-9);
+  EXPECT_EQ(dut.world.site.map.floor_friction, 0.05);
+  EXPECT_NEAR(dut.world.robot.spec.mass_kg, 30, 1e-9);
   std::filesystem::remove_all(folder);
 }
 

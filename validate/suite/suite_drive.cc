@@ -79,10 +79,10 @@ Scenario SuiteDrive::Read(const SuiteRun& run) const {
       Text(run, drive, false), fs::absolute(name_ + ".yaml"), options_.overrides);
   Scenario scenario = file.Read(file.episode());
   if (drive.plan.empty()) return scenario;
-  scenario.planner.reset();
-  scenario.planner_name.clear();
-  scenario.user_plan = std::move(drive.plan);
-  scenario.plan_file = kPlanFile;
+  scenario.agents.planner.reset();
+  scenario.spec.planner_name.clear();
+  scenario.spec.user_plan = std::move(drive.plan);
+  scenario.spec.plan_file = kPlanFile;
   return scenario;
 }
 
@@ -95,8 +95,8 @@ void SuiteDrive::Judge(Scenario& scenario, SuiteRun& run) const {
   if (record.outcome == Outcome::kInterrupted) return;
   run.verdict = method_->Judge({name_, robot_, run.draw, run.size}, record);
   run.duration_s = record.metrics.duration_s;
-  run.friction = scenario.site.map.floor_friction;
-  run.mass_kg = scenario.robot_changes.mass_kg.value_or(scenario.robot.spec.mass_kg);
+  run.friction = scenario.world.site.map.floor_friction;
+  run.mass_kg = scenario.spec.robot_changes.mass_kg.value_or(scenario.world.robot.spec.mass_kg);
 }
 
 std::vector<SuiteRun> SuiteDrive::Drive(std::vector<SuiteRun> runs, bool all,

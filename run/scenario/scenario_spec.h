@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scenario says: names, parameters, draws, and what stands in the tables that it names.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "env/core/path.h"
+#include "env/scene/robot_model.h"
+#include "planners/risk/rate_model.h"
+#include "planners/risk/risk_map.h"
+#include "run/scenario/draws.h"
+#include "run/scenario/plan_command.h"
+#include "run/scenario/scenario_params.h"
+
+namespace floorproof {
+
+struct ScenarioSpec {
+  std::filesystem::path file;
+  std::string name;  // the key `name`, else the file's stem
+  std::uint64_t episode_id = 0;
+  Drawn drawn;                    // what `randomise` drew for it
+  std::set<std::string> written;  // the keys at its top
+  Sampling sampling = Sampling::kIndependent;
+  std::filesystem::path site_file;  // empty: the site stands in the scenario
+
+  std::string robot_name;
+  RobotChanges robot_changes;
+  std::filesystem::path robot_file;
+
+  // A planner, a program or a file makes the plan; or the mission says where to drive.
+  std::string planner_name;                 // empty: plan_file
+  std::optional<PlanCommand> plan_command;  // plan_file is what it made once, if it has
+  std::filesystem::path plan_file;
+  Path user_plan;                     // what it holds, or the mission's places
+  std::filesystem::path places_file;  // that the planner is to visit; empty: it finds its own
+  std::vector<Vec2> places;           // what it holds, p_W
+
+  std::filesystem::path fmea_file;
+  FmeaTables fmea;
+  RiskParams risk;
+  std::filesystem::path risk_model_file;  // empty: none
+  std::shared_ptr<const RiskModel> risk_model;
+
+  std::string tracker_name, estimator_name;
+  std::filesystem::path mission_file;  // of its supervision; empty: none
+  EpisodeParams episode;
+  VideoParams video;
+};
+
+}  // namespace floorproof
