@@ -61,9 +61,9 @@ fs::path CampaignFolder(const std::string& out, const fs::path& scenario, const 
   return Apart(out, DefaultFolder(scenario, name), "plan.json", "a plan or a run", "campaign");
 }
 
-void SayDrawn(const Scenario& scenario, const Globals& globals) {
-  if (!scenario.spec.drawn.empty())
-    globals.SayFact("Drawn", DrawnText(scenario.spec.drawn) + "; these override the file");
+void SayDrawn(const ScenarioSpec& spec, const Globals& globals) {
+  if (!spec.drawn.empty())
+    globals.SayFact("Drawn", DrawnText(spec.drawn) + "; these override the file");
 }
 
 int ExitStatus(Outcome outcome) {

@@ -40,7 +40,7 @@ std::filesystem::path CampaignFolder(const std::string& out, const std::filesyst
                                      const std::string& name);
 
 // What the episode's draws put in place of what is written.
-void SayDrawn(const Scenario& scenario, const Globals& globals);
+void SayDrawn(const ScenarioSpec& spec, const Globals& globals);
 
 // The exit status of one episode.
 int ExitStatus(Outcome outcome);

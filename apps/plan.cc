@@ -58,7 +58,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     std::vector<std::string> lines = Warnings(scenario);
     for (const std::string& warning : lines) globals.Say(warning);
     if (const std::string runs = ProgramAnnounced(scenario); !runs.empty()) globals.Say(runs);
-    SayDrawn(scenario, globals);
+    SayDrawn(scenario.spec, globals);
     const std::filesystem::path folder =
         OutputFolder(options->out, scenario.spec.file, scenario.spec.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
@@ -67,7 +67,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
         plan.status == PlanStatus::kSuccess)
       CleanerPlan(scenario, *plan.risk);  // else its drive would be the first to try
     const std::vector<RiskOfPlan> beside =
-        PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan),
+        PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario.spec, plan),
                     globals.trust(), globals);
     nlohmann::ordered_json json = SavePlan(scenario, plan, out, beside);
     const bool found = plan.status == PlanStatus::kSuccess;
@@ -93,7 +93,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
         globals.Say(said);
         lines.push_back(std::move(said));
       }
-      json["check"] = PlanCheckJson(scenario, check);
+      json["check"] = PlanCheckJson(scenario.world, check);
       faults = PlanFaults(scenario, plan, check, lines);
       json["faults"] = faults;
     } else {

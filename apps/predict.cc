@@ -53,7 +53,7 @@ void AddPredict(CommandLine& line, const Globals& globals, int& status) {
     const nlohmann::ordered_json plan = SavePlan(scenario, prediction.plan, out, {});
     const nlohmann::ordered_json json = PredictionJson(scenario, prediction, plan);
     WriteFileWhole(folder / "predict.json", JsonText(json) + "\n");
-    WritePredictPicture(scenario, prediction, folder / "heatmap_predict.png");
+    WritePredictPicture(scenario.world, prediction, folder / "heatmap_predict.png");
     globals.Say(SweptText(prediction.plan, plan));
     for (const std::string& said : PredictionLines(prediction)) globals.Say(said);
     globals.SayFact("Results", folder.string());

@@ -27,7 +27,7 @@ void AddRun(CommandLine& line, const Globals& globals, int& status) {
     Scenario scenario = ReadScenario(options->scenario, overrides, globals.trust());
     const std::filesystem::path folder =
         OutputFolder(options->out, scenario.spec.file, scenario.spec.name);
-    SayDrawn(scenario, globals);
+    SayDrawn(scenario.spec, globals);
     if (!scenario.text.matrix.IsNull())
       globals.Say("this is the scenario itself: `campaign` drives the variants of its matrix");
     const DriveResult result = DriveAndFilm(scenario, folder, {.video = options->video}, globals);

@@ -47,7 +47,7 @@ void WriteCellPicture(const Scenario& s, const EpisodeRecord& record,
   const auto all = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
   const bool cells = s.spec.episode.drive == "cells";
   HeatMapOptions options;
-  options.title = fmt::format("{}: J_hc {:.1f} %, J_cc {:.1f} %", PictureTitle(s),
+  options.title = fmt::format("{}: J_hc {:.1f} %, J_cc {:.1f} %", PictureTitle(s.world),
                               100 * record.metrics.coverage, 100 * record.metrics.revisited);
   const double cell_m = record.passes_frame.cell_m;
   options.quantity =
@@ -65,7 +65,7 @@ void WriteCellPicture(const Scenario& s, const EpisodeRecord& record,
     }
     options.categories.push_back({label, ColourOf(property)});
   }
-  const double radius_m = s.agents.online->params().radius_m;
+  const double radius_m = s.spec.online.radius_m;
   if (!record.trace.empty())
     options.rings.push_back({{record.trace.back().x_m, record.trace.back().y_m},
                              radius_m,

@@ -97,11 +97,11 @@ std::string ScoreText(const RegionScore& region) {
 
 }  // namespace
 
-std::string AuditText(const Scenario& s, const PlanResult& plan, const FloorAudit& audit) {
+std::string AuditText(const World& world, const PlanResult& plan, const FloorAudit& audit) {
   std::string text =
       fmt::format("{} of {} taken, {} dirty (more than {} particles); score {}",
                   audit.samples.size(), CountText(plan.samples.size(), "sample"),
-                  audit.gathering.dirty, s.world.dirt->params.dirty_above, ScoreText(audit.region));
+                  audit.gathering.dirty, world.dirt->params.dirty_above, ScoreText(audit.region));
   constexpr double kWhole = 0.995;
   if (const SpaceScore& region = audit.region.score; region.mean && region.represented < kWhole)
     text += fmt::format(", of {:.0f} % of the room", 100 * region.represented);
@@ -112,10 +112,10 @@ std::string AuditText(const Scenario& s, const PlanResult& plan, const FloorAudi
   return text;
 }
 
-void WriteDirt(const Scenario& s, const PlanResult& plan, const FloorAudit& audit,
+void WriteDirt(const World& world, const PlanResult& plan, const FloorAudit& audit,
                const std::filesystem::path& png) {
   HeatMapOptions dirt, scores;
-  dirt.title = fmt::format("{}: true dirt", PictureTitle(s));
+  dirt.title = fmt::format("{}: true dirt", PictureTitle(world));
   dirt.quantity = "particles a square metre";
   dirt.unit = "1000 / m2; 2 % of it lies above";
   dirt.low = 0;
@@ -146,15 +146,15 @@ void WriteDirt(const Scenario& s, const PlanResult& plan, const FloorAudit& audi
           {place.p_W, place.reachable ? "sample not taken" : SampleSeriesOf(place)});
   }
   const HeatValues around = ScoresAround(audit);
-  WritePng(png, Beside(DrawHeatMap(s.world.site.map, &thousands, dirt),
-                       DrawHeatMap(s.world.site.map, &around, scores)));
+  WritePng(png, Beside(DrawHeatMap(world.site.map, &thousands, dirt),
+                       DrawHeatMap(world.site.map, &around, scores)));
 }
 
-void WriteTapes(const Scenario& s, const PlanResult& plan, const FloorAudit& audit,
+void WriteTapes(const World& world, const PlanResult& plan, const FloorAudit& audit,
                 const std::filesystem::path& png) {
   constexpr std::size_t kMost = 30;
   const std::size_t n = audit.samples.size(), shown = std::min(kMost, n);
-  const SamplingParams& params = s.world.dirt->params.sampling;
+  const SamplingParams& params = world.dirt->params.sampling;
   std::vector<SheetImage> tapes;
   for (std::size_t i = 0; i < shown; ++i) {
     const AuditedSample& taken = audit.samples[i * n / shown];
@@ -171,11 +171,12 @@ void WriteTapes(const Scenario& s, const PlanResult& plan, const FloorAudit& aud
                                      sample.lifted.size(), sample.score.score)
                        : fmt::format("{}. {}", visit, Name(sample.status()));
   }
-  WritePng(png, DrawContactSheet(
-                    fmt::format("{}: the tapes of {}{}; particles counted, of those lifted; score",
-                                PictureTitle(s), shown < n ? std::to_string(shown) + " of " : "",
-                                CountText(n, "sample")),
-                    tapes));
+  WritePng(png,
+           DrawContactSheet(
+               fmt::format("{}: the tapes of {}{}; particles counted, of those lifted; score",
+                           PictureTitle(world), shown < n ? std::to_string(shown) + " of " : "",
+                           CountText(n, "sample")),
+               tapes));
 }
 
 }  // namespace floorproof

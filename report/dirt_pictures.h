@@ -11,16 +11,16 @@
 namespace floorproof {
 
 // In words: how many samples were dirty, and the region's score with its interval.
-std::string AuditText(const Scenario& scenario, const PlanResult& plan, const FloorAudit& audit);
+std::string AuditText(const World& world, const PlanResult& plan, const FloorAudit& audit);
 
 // Two maps side by side: the dirt that truly lay there before the first sample, and the score of
 // each sample around its tape, dirtier places brighter in both.
-void WriteDirt(const Scenario& scenario, const PlanResult& plan, const FloorAudit& audit,
+void WriteDirt(const World& world, const PlanResult& plan, const FloorAudit& audit,
                const std::filesystem::path& png);
 
 // The tapes as the microscope saw them, each by the number of its visit, with what was counted
 // ringed; of many, 30 along the tour.
-void WriteTapes(const Scenario& scenario, const PlanResult& plan, const FloorAudit& audit,
+void WriteTapes(const World& world, const PlanResult& plan, const FloorAudit& audit,
                 const std::filesystem::path& png);
 
 }  // namespace floorproof

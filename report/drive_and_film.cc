@@ -79,16 +79,16 @@ class Witness : public EpisodeObserver {
     }
     console_.Say(fmt::format("{}, in {:.2f} s", PlannedText(plan), plan_s));
     if (!plan.message.empty()) console_.Say(plan.message);
-    if (const std::string line = UnheldDwellLine(s_, plan); !line.empty()) console_.Say(line);
+    if (const std::string line = UnheldDwellLine(s_.world, plan); !line.empty()) console_.Say(line);
     // A planner keeps clear of what it knows; a file or a program may lead anywhere.
     if (PlannerOf(s_) != nullptr) return;
-    const PlanClearance clearance = CheckClearance(s_, plan);
+    const PlanClearance clearance = CheckClearance(s_.world, plan);
     if (const std::string conflicts = ConflictsLine(clearance); !conflicts.empty())
       console_.Say(conflicts + ", see `floorproof plan`");
     const int sharp = CountSharpCorners(plan.path, s_.world.robot.spec);
     if (const std::string line = SharpCornersLine(s_.world.robot.spec, sharp); !line.empty())
       console_.Say(line);
-    for (const std::string& line : CrossingLines(s_, clearance)) console_.Say(line);
+    for (const std::string& line : CrossingLines(s_.world, clearance)) console_.Say(line);
   }
 
   void OnScene(const Scene& scene) override {

@@ -22,18 +22,18 @@ std::string EventText(const Event& e, const HazardMap& map) {
 }
 
 // With several failures each has a row of its own; the maps name them by the same numbers.
-void AddVerdict(const Scenario& s, const EpisodeRecord& record, FactTable& table) {
+void AddVerdict(const World& world, const EpisodeRecord& record, FactTable& table) {
   constexpr std::size_t kShown = 9;
   const std::size_t n = record.events.size();
   std::string text(Name(record.outcome));
-  if (n == 1) text += ", " + EventText(record.events.front(), s.world.site.map);
+  if (n == 1) text += ", " + EventText(record.events.front(), world.site.map);
   if (n > 1) text += ", the robot failed " + CountText(n, "time");
   if (const std::size_t times = record.interventions.size(); times > 0)
     text += ", helped " + CountText(times, "time");
   if (!record.message.empty()) text += ": " + record.message;
   table.Add({"Verdict", {text, record.outcome == Outcome::kSuccess ? Tone::kGood : Tone::kBad}});
   for (std::size_t i = 0; n > 1 && i < std::min(n, kShown); ++i)
-    table.Add({fmt::format("Failure {}", i + 1), EventText(record.events[i], s.world.site.map)});
+    table.Add({fmt::format("Failure {}", i + 1), EventText(record.events[i], world.site.map)});
   if (n > kShown)
     table.Add(
         {"Further failures", FixedText(static_cast<double>(n - kShown), 0) + ", see result.json"});
@@ -99,7 +99,7 @@ std::string ArrivalText(const Arrival& how) {
 std::string Title(const Scenario& s) {
   const std::string plan =
       s.spec.planner_name.empty() ? s.spec.plan_file.filename().string() : s.spec.planner_name;
-  return PictureTitle(s) + (plan.empty() ? "" : ", " + plan);
+  return PictureTitle(s.world) + (plan.empty() ? "" : ", " + plan);
 }
 
 void AddCellDrive(const EpisodeRecord& record, double drive_s, FactTable& table) {
@@ -132,13 +132,13 @@ FactTable DriveTable(const Scenario& s, const PlanResult& plan, const EpisodeRec
                      double drive_s) {
   FactTable table;
   table.SetTitle(Title(s));
-  AddVerdict(s, record, table);
+  AddVerdict(s.world, record, table);
   if (s.spec.episode.drive == "cells")
     AddCellDrive(record, drive_s, table);
   else
     AddPhysicsDrive(record, drive_s, table);
   AddSupervision(record, table);
-  if (record.audit) table.Add({"Audit", AuditText(s, plan, *record.audit)});
+  if (record.audit) table.Add({"Audit", AuditText(s.world, plan, *record.audit)});
   return table;
 }
 

@@ -117,7 +117,7 @@ DriveScript::DriveScript(const Scenario& s, const Scene& scene, const PlanResult
   film.recording = &recording;
   film.events = record.events;
   film.map = &map;
-  film.title = PictureTitle(s);
+  film.title = PictureTitle(s.world);
   film.shell = ShellOf(whole.model ? whole : scene);
   film.plan = &plan.path;
   film.senses = s.spec.video.scan;
@@ -135,8 +135,8 @@ DriveScript::DriveScript(const Scenario& s, const Scene& scene, const PlanResult
                                          help.to_W.x(), help.to_W.y(), help.t_s)}});
   if (record.events.empty() || !record.interventions.empty()) film.closing = ClosingBanner(record);
   if (s.agents.safety) film.timeline = SafetyTimeline(s, record);
-  if (s.agents.online) {
-    film.window_m = s.agents.online->params().radius_m;
+  if (s.spec.plan_by == PlanBy::kOnline) {
+    film.window_m = s.spec.online.radius_m;
     film.swept_again = SweptAgainPatches(record, s.world.robot.spec);
   }
 }
@@ -205,8 +205,8 @@ std::string WriteCellVideo(const Scenario& s, const EpisodeRecord& record,
   script.in_reach = &record.sweepable;
   script.visits = &record.passes;
   script.known = record.known ? &*record.known : nullptr;
-  script.window_m = s.agents.online->params().radius_m;
-  script.title = PictureTitle(s) + ", " + s.spec.planner_name;
+  script.window_m = s.spec.online.radius_m;
+  script.title = PictureTitle(s.world) + ", " + s.spec.planner_name;
   script.closing = ClosingBanner(record);
   for (const TraceRow& row : record.trace)
     script.steps.push_back({row.t_s,

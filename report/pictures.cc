@@ -32,13 +32,13 @@ HeatValues OverSweepable(const EpisodeRecord& record, float (*value)(std::uint8_
 
 // What the robot's own map says, and where it is wrong: by more than a cell of its own or of the
 // site, which walls are drawn to.
-void WriteKnownMap(const Scenario& s, const EpisodeRecord& record,
+void WriteKnownMap(const World& world, const EpisodeRecord& record,
                    const std::filesystem::path& png) {
   const KnownMap& known = *record.known;
   const KnownAgainstTruth seen =
-      Compare(known, TrueFloor(s.world), s.world.robot.spec.step_m, 2 * known.frame.cell_m);
+      Compare(known, TrueFloor(world), world.robot.spec.step_m, 2 * known.frame.cell_m);
   HeatMapOptions options;
-  options.title = fmt::format("{}: known {:.1f} %, of it wrong {:.1f} %", PictureTitle(s),
+  options.title = fmt::format("{}: known {:.1f} %, of it wrong {:.1f} %", PictureTitle(world),
                               100 * seen.known, 100 * seen.wrong);
   // In the order of KnownAgainstTruth::State.
   options.categories = {{"unknown", {176, 182, 190}},
@@ -53,14 +53,15 @@ void WriteKnownMap(const Scenario& s, const EpisodeRecord& record,
   HeatValues heat{known.frame, Grid<float>(seen.cells.width, seen.cells.height)};
   for (std::size_t i = 0; i < heat.values.cells.size(); ++i)
     heat.values.cells[i] = static_cast<float>(seen.cells.cells[i]);
-  HazardMap bare = s.world.site.map;  // the walls shown are those that were sensed
+  HazardMap bare = world.site.map;  // the walls shown are those that were sensed
   std::ranges::fill(bare.occupancy.cells, CellState::kFree);
   WriteHeatMap(bare, &heat, options, png);
 }
 
-void WriteVisits(const Scenario& s, const EpisodeRecord& record, const std::filesystem::path& png) {
+void WriteVisits(const World& world, const EpisodeRecord& record,
+                 const std::filesystem::path& png) {
   HeatMapOptions options;
-  options.title = PictureTitle(s) + ": visits";
+  options.title = PictureTitle(world) + ": visits";
   options.quantity = "passes of the tool";
   options.unit = "count";
   options.whole_numbers = true;
@@ -68,57 +69,58 @@ void WriteVisits(const Scenario& s, const EpisodeRecord& record, const std::file
   ShowDrive(record, Way::kHidden, options);
   const HeatValues heat =
       OverSweepable(record, [](std::uint8_t passes) { return static_cast<float>(passes); });
-  WriteHeatMap(s.world.site.map, &heat, options, png);
+  WriteHeatMap(world.site.map, &heat, options, png);
 }
 
-void WriteCoverage(const Scenario& s, const EpisodeRecord& record,
+void WriteCoverage(const World& world, const EpisodeRecord& record,
                    const std::filesystem::path& png) {
   HeatMapOptions options;
   options.title =
-      fmt::format("{}: coverage {:.1f} %", PictureTitle(s), 100 * record.metrics.coverage);
+      fmt::format("{}: coverage {:.1f} %", PictureTitle(world), 100 * record.metrics.coverage);
   // Apart for eyes that see red and green alike, too.
   options.categories = {{"can be swept, was not", {236, 176, 70}}, {"swept", {112, 168, 196}}};
   ShowDrive(record, Way::kHidden, options);
   const HeatValues heat =
       OverSweepable(record, [](std::uint8_t passes) { return passes > 0 ? 1.0f : 0.0f; });
-  WriteHeatMap(s.world.site.map, &heat, options, png);
+  WriteHeatMap(world.site.map, &heat, options, png);
 }
 
 }  // namespace
 
-std::string PictureTitle(const Scenario& s) {
-  return s.world.robot.spec.name + " on " + s.world.site.map.name;
+std::string PictureTitle(const World& world) {
+  return world.robot.spec.name + " on " + world.site.map.name;
 }
 
 void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
                    const std::filesystem::path& folder, const Console& console) {
   const std::function<void()> pictures[] = {
       [&] { WritePlanPictures(s, plan, folder, {}, &record); },
-      [&] { WriteVisits(s, record, folder / "heatmap_visits.png"); },
-      [&] { WriteCoverage(s, record, folder / "heatmap_coverage.png"); },
+      [&] { WriteVisits(s.world, record, folder / "heatmap_visits.png"); },
+      [&] { WriteCoverage(s.world, record, folder / "heatmap_coverage.png"); },
       [&] {
         HeatMapOptions options;
         options.plan = &plan.path;
         ShowDrive(record, Way::kShown, options);
-        WriteFailurePlaces(s.world.site.map, PictureTitle(s), std::move(options), nullptr,
+        WriteFailurePlaces(s.world.site.map, PictureTitle(s.world), std::move(options), nullptr,
                            folder / "heatmap_failures.png");
       },
       [&] {
-        if (record.known) WriteKnownMap(s, record, folder / "heatmap_known.png");
+        if (record.known) WriteKnownMap(s.world, record, folder / "heatmap_known.png");
       },
       [&] {
-        if (s.agents.online) WriteCellPicture(s, record, folder / "heatmap_cells.png");
+        if (s.spec.plan_by == PlanBy::kOnline)
+          WriteCellPicture(s, record, folder / "heatmap_cells.png");
       },
       [&] {
-        if (s.agents.online)
-          WriteCoveragePlot(PictureTitle(s), record, folder / "plot_coverage.png");
+        if (s.spec.plan_by == PlanBy::kOnline)
+          WriteCoveragePlot(PictureTitle(s.world), record, folder / "plot_coverage.png");
       },
       [&] {
-        if (record.audit) WriteDirt(s, plan, *record.audit, folder / "heatmap_dirt.png");
+        if (record.audit) WriteDirt(s.world, plan, *record.audit, folder / "heatmap_dirt.png");
       },
       [&] {
         if (record.audit && !record.audit->samples.empty())
-          WriteTapes(s, plan, *record.audit, folder / "plot_tapes.png");
+          WriteTapes(s.world, plan, *record.audit, folder / "plot_tapes.png");
       },
       [&] {
         if (s.agents.safety && record.steps > 0)
@@ -126,7 +128,7 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
       },
       [&] {  // an ideal robot has none
         if (s.spec.episode.drive == "physics")
-          WriteErrorPlot(PictureTitle(s), record, folder / "plot_errors.png");
+          WriteErrorPlot(PictureTitle(s.world), record, folder / "plot_errors.png");
       }};
   DrawingProgress progress(console, "drawing maps");
   int done = 0;

@@ -13,7 +13,7 @@
 namespace floorproof {
 
 // "ROBOT on SITE", how the titles of an episode's pictures begin.
-std::string PictureTitle(const Scenario& scenario);
+std::string PictureTitle(const World& world);
 // The plan's pictures (report/risk_pictures.h); heatmap_visits.png, heatmap_coverage.png,
 // heatmap_failures.png and plot_errors.png; of a robot that draws a map, heatmap_known.png; of a
 // planner of unknown floors, heatmap_cells.png and plot_coverage.png. Each map has the failures;

@@ -39,11 +39,11 @@ HeatValues Around(const HazardMap& map, const Prediction& prediction) {
 
 }  // namespace
 
-void WritePredictPicture(const Scenario& s, const Prediction& prediction,
+void WritePredictPicture(const World& world, const Prediction& prediction,
                          const std::filesystem::path& png) {
   HeatMapOptions options;
   const double fails = 1 - prediction.survival.no_failure.value;
-  options.title = fmt::format("{}: {}{} of drives are predicted to fail", PictureTitle(s),
+  options.title = fmt::format("{}: {}{} of drives are predicted to fail", PictureTitle(world),
                               prediction.complete() ? "" : "at least ", PercentText(fails));
   options.quantity = "drives that end here";
   options.unit = "%";
@@ -66,8 +66,8 @@ void WritePredictPicture(const Scenario& s, const Prediction& prediction,
                                 fmt::format("{}, {}: {}", met.hazard, Name(met.passage),
                                             PercentText(ranked[i]->probability))});
   }
-  const HeatValues heat = Around(s.world.site.map, prediction);
-  WriteHeatMap(s.world.site.map, &heat, options, png);
+  const HeatValues heat = Around(world.site.map, prediction);
+  WriteHeatMap(world.site.map, &heat, options, png);
 }
 
 }  // namespace floorproof

@@ -10,7 +10,7 @@ namespace floorproof {
 
 // The likeliest places to fail are numbered and listed; the floor around each meeting is coloured
 // by the probability that the drive ends there.
-void WritePredictPicture(const Scenario& scenario, const Prediction& prediction,
+void WritePredictPicture(const World& world, const Prediction& prediction,
                          const std::filesystem::path& png);
 
 }  // namespace floorproof

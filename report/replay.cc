@@ -91,7 +91,7 @@ DriveResult ReplayRow(Scenario scenario, const EpisodeRow& row, const fs::path& 
   if (row.outcome == "error") console.Say("recorded as an error: " + row.message);
   DriveResult result = DriveAndFilm(scenario, into, options, console);
   if (result.not_written) std::rethrow_exception(result.not_written);
-  const EpisodeRow now = MakeRow(row.variant, scenario, row.plan, result.record);
+  const EpisodeRow now = MakeRow(row.variant, scenario.spec, row.plan, result.record);
   if (row.outcome == "error" && now.outcome != "error")
     throw InternalError(
         fmt::format("{}: recorded as an error ({}), which did not come again; `campaign --resume "

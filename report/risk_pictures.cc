@@ -31,8 +31,8 @@ HeatValues OnRiskCells(const RiskMap& risk, Value value) {
 }
 
 // What the picture is of; without a plan it says so.
-std::string Title(const Scenario& s, const PlanResult& plan, const std::string& what) {
-  const std::string title = PictureTitle(s) + ": ";
+std::string Title(const World& world, const PlanResult& plan, const std::string& what) {
+  const std::string title = PictureTitle(world) + ": ";
   if (plan.status == PlanStatus::kOnline) return title + "drive";
   return plan.status == PlanStatus::kSuccess
              ? title + what
@@ -42,10 +42,10 @@ std::string Title(const Scenario& s, const PlanResult& plan, const std::string& 
 void WritePlanOverClasses(const Scenario& s, const PlanResult& plan, const EpisodeRecord* record,
                           const std::filesystem::path& png) {
   HeatMapOptions options;
-  options.title = Title(s, plan, record == nullptr ? "plan" : "plan and drive");
+  options.title = Title(s.world, plan, record == nullptr ? "plan" : "plan and drive");
   options.plan = &plan.path;
   if (record != nullptr) ShowDrive(*record, Way::kShown, options);
-  if (!AsksForRisk(s)) {  // whose cells are as wide as the robot, and no hazards
+  if (!AsksForRisk(s.spec)) {  // whose cells are as wide as the robot, and no hazards
     WriteHeatMap(s.world.site.map, nullptr, options, png);
     return;
   }
@@ -60,26 +60,26 @@ void WritePlanOverClasses(const Scenario& s, const PlanResult& plan, const Episo
   WriteHeatMap(s.world.site.map, &classes, options, png);
 }
 
-void WriteRiskMap(const Scenario& s, const PlanResult& plan, const EpisodeRecord* record,
+void WriteRiskMap(const World& world, const PlanResult& plan, const EpisodeRecord* record,
                   const std::filesystem::path& png) {
   HeatMapOptions options;
   if (record != nullptr) ShowDrive(*record, Way::kHidden, options);
   const auto [least, most] = std::ranges::minmax(plan.risk->rf.cells);
-  options.title = PictureTitle(s) + ": risk";
+  options.title = PictureTitle(world) + ": risk";
   if (least > 0) options.title += fmt::format(", highest / lowest {:.2f}", most / least);
   options.quantity = "risk factor (RF)";
   options.colour_map = ColourMap::kInferno;
   const HeatValues rf = OnRiskCells(*plan.risk, [&](std::size_t i, const RiskCell& cell) {
     return cell.outer_wall() ? HeatValues::kNone : static_cast<float>(plan.risk->rf.cells[i]);
   });
-  WriteHeatMap(s.world.site.map, &rf, options, png);
+  WriteHeatMap(world.site.map, &rf, options, png);
 }
 
-void WritePlanVisits(const Scenario& s, const PlanResult& plan, const RiskOfPath& risk,
+void WritePlanVisits(const World& world, const PlanResult& plan, const RiskOfPath& risk,
                      const EpisodeRecord* record, const std::filesystem::path& png) {
   HeatMapOptions options;
   if (record != nullptr) ShowDrive(*record, Way::kHidden, options);
-  options.title = Title(s, plan, fmt::format("{} visits of {} cells", risk.visits, risk.cells));
+  options.title = Title(world, plan, fmt::format("{} visits of {} cells", risk.visits, risk.cells));
   options.quantity = "visits by the plan";
   options.unit = "count";
   options.whole_numbers = true;
@@ -91,7 +91,7 @@ void WritePlanVisits(const Scenario& s, const PlanResult& plan, const RiskOfPath
     const int n = risk.visits_of.cells[i];
     return cell.solid && n == 0 ? HeatValues::kNone : static_cast<float>(n);
   });
-  WriteHeatMap(s.world.site.map, &visits, options, png);
+  WriteHeatMap(world.site.map, &visits, options, png);
 }
 
 std::string Figures(const RiskOfPath& risk) {
@@ -129,8 +129,8 @@ bool SameFloor(const RiskOfPath& a, const RiskOfPath& b) {
 
 }  // namespace
 
-RiskOfPlan MeasurePlan(const Scenario& s, const PlanResult& plan) {
-  return {s.spec.planner_name.empty() ? s.spec.plan_file.filename().string() : s.spec.planner_name,
+RiskOfPlan MeasurePlan(const ScenarioSpec& spec, const PlanResult& plan) {
+  return {spec.planner_name.empty() ? spec.plan_file.filename().string() : spec.planner_name,
           MeasureRisk(*plan.risk, plan.path)};
 }
 
@@ -144,7 +144,7 @@ std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
     const PlanResult plan = MakePlan(scenario);
     if (plan.status != PlanStatus::kSuccess)
       throw InputError({file, 0}, "", "", "has no plan: " + plan.message);
-    plans.push_back(MeasurePlan(scenario, plan));
+    plans.push_back(MeasurePlan(scenario.spec, plan));
     if (plans.back().label == first.label) plans.back().label += " of " + scenario.spec.name;
     if (!SameFloor(first.risk, plans.back().risk))
       throw InputError(
@@ -159,15 +159,15 @@ void WritePlanPictures(const Scenario& s, const PlanResult& plan,
                        const EpisodeRecord* record) {
   WritePlanOverClasses(s, plan, record, folder / "heatmap_plan.png");
   if (!plan.samples.empty())
-    WriteSamples(PictureTitle(s), s.world.site.map, plan, folder / "heatmap_samples.png");
+    WriteSamples(PictureTitle(s.world), s.world.site.map, plan, folder / "heatmap_samples.png");
   if (!plan.convergence_m.empty())
-    WriteConvergence(PictureTitle(s), plan, folder / "plot_convergence.png");
-  if (!AsksForRisk(s) && beside.empty()) return;
-  std::vector<RiskOfPlan> plans = {MeasurePlan(s, plan)};
-  WriteRiskMap(s, plan, record, folder / "heatmap_risk.png");
-  WritePlanVisits(s, plan, plans.front().risk, record, folder / "heatmap_plan_visits.png");
+    WriteConvergence(PictureTitle(s.world), plan, folder / "plot_convergence.png");
+  if (!AsksForRisk(s.spec) && beside.empty()) return;
+  std::vector<RiskOfPlan> plans = {MeasurePlan(s.spec, plan)};
+  WriteRiskMap(s.world, plan, record, folder / "heatmap_risk.png");
+  WritePlanVisits(s.world, plan, plans.front().risk, record, folder / "heatmap_plan_visits.png");
   plans.insert(plans.end(), beside.begin(), beside.end());
-  WriteRiskPlot(Title(s, plan, "visits by risk"), plans, folder / "plot_risk.png");
+  WriteRiskPlot(Title(s.world, plan, "visits by risk"), plans, folder / "plot_risk.png");
 }
 
 void WriteRiskPlot(const std::string& title, std::span<const RiskOfPlan> plans,

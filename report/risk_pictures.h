@@ -18,7 +18,7 @@ struct RiskOfPlan {
   RiskOfPath risk;
 };
 // Labelled by the planner, or by the plan's file.
-RiskOfPlan MeasurePlan(const Scenario& scenario, const PlanResult& plan);
+RiskOfPlan MeasurePlan(const ScenarioSpec& spec, const PlanResult& plan);
 // Plans these scenarios, to stand beside `first`. Throws InputError naming the one that cannot be
 // read, has no plan, or has another floor, robot or risk.
 std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,

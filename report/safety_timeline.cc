@@ -101,7 +101,7 @@ std::vector<TimelineSpan> Speed(const std::vector<SpeedShare>& shares, double en
 Timeline SafetyTimeline(const Scenario& s, const EpisodeRecord& record) {
   const double end_s = record.metrics.duration_s;
   Timeline timeline;
-  timeline.title = PictureTitle(s) + ": what was broken, noticed and done";
+  timeline.title = PictureTitle(s.world) + ": what was broken, noticed and done";
   timeline.notes = {fmt::format("{} after {}{}", Words(Name(record.outcome)), TimeText(end_s),
                                 record.message.empty() ? "" : ": " + record.message)};
   timeline.end_s = end_s;

@@ -26,11 +26,11 @@ bool Differ(const std::vector<Variant>& variants, std::initializer_list<std::str
   return false;
 }
 
-std::string PlanOf(const Scenario& s) {
-  if (!s.spec.planner_name.empty()) return s.spec.planner_name + " plan";
-  if (!s.spec.mission_file.empty()) return "mission " + s.spec.mission_file.filename().string();
-  if (s.spec.plan_command) return "plan by a program";
-  return "plan " + s.spec.plan_file.filename().string();
+std::string PlanOf(const ScenarioSpec& spec) {
+  if (!spec.planner_name.empty()) return spec.planner_name + " plan";
+  if (!spec.mission_file.empty()) return "mission " + spec.mission_file.filename().string();
+  if (spec.plan_command) return "plan by a program";
+  return "plan " + spec.plan_file.filename().string();
 }
 
 // The rate that is judged. None: no episode counts.
@@ -130,7 +130,7 @@ std::string SubjectOf(const Scenario& scenario, const std::vector<Variant>& vari
   };
   if (!Differ(variants, {"robot", "robot.model"})) add(scenario.world.robot.spec.name);
   if (!Differ(variants, {"plan", "plan.planner", "plan.file", "plan.command", "mission"}))
-    add(PlanOf(scenario));
+    add(PlanOf(scenario.spec));
   if (!Differ(variants, {"site"})) add(scenario.world.site.map.name);
   return subject;
 }

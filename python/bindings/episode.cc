@@ -105,7 +105,7 @@ void RequireOwn(const Scenario& s, const Planned& planned) {
     refuse("drive is " + of.spec.episode.drive + ", not " + s.spec.episode.drive);
   if (planned.plan.status == PlanStatus::kOnline && s.spec.planner_name != of.spec.planner_name)
     refuse("planner, " + of.spec.planner_name + ", plans on the way");
-  if (s.agents.online && planned.plan.status != PlanStatus::kOnline)
+  if (s.spec.plan_by == PlanBy::kOnline && planned.plan.status != PlanStatus::kOnline)
     refuse("plan was made beforehand, and " + s.spec.planner_name + " plans on the way");
 }
 

@@ -9,9 +9,9 @@
 namespace floorproof {
 namespace {
 
-SweepArea KnownArea(const Scenario& s) {
-  const RobotSpec& robot = s.world.robot.spec;
-  return ComputeSweepArea(KnownFloor(s.world), robot, robot.clear, robot.tool, s.world.start);
+SweepArea KnownArea(const World& world) {
+  const RobotSpec& robot = world.robot.spec;
+  return ComputeSweepArea(KnownFloor(world), robot, robot.clear, robot.tool, world.start);
 }
 
 enum : std::uint8_t { kObstacle = 1, kSweepable = 2 };
@@ -80,13 +80,13 @@ class Raster {
 
 }  // namespace
 
-LocalMap::LocalMap(const Scenario& s, int cells, double cell_m)
+LocalMap::LocalMap(const World& world, int cells, double cell_m)
     : cells_(Checked(cells, cell_m)),
       cell_m_(cell_m),
-      area_(KnownArea(s)),
-      floor_(WhatIsKnown(ObstacleMask(KnownFloor(s.world), s.world.robot.spec.step_m, area_.frame),
+      area_(KnownArea(world)),
+      floor_(WhatIsKnown(ObstacleMask(KnownFloor(world), world.robot.spec.step_m, area_.frame),
                          area_.sweepable)),
-      swept_(area_, s.world.robot.spec.tool),
+      swept_(area_, world.robot.spec.tool),
       values_(3 * static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells)) {}
 
 void LocalMap::Look(const Pose2& X_WB, const KnownMap* drawn) {

@@ -7,7 +7,7 @@
 
 #include "env/core/coverage.h"
 #include "env/known/known_map.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 
@@ -17,7 +17,7 @@ namespace floorproof {
 class LocalMap {
  public:
   // Throws InputError where there are no such cells.
-  LocalMap(const Scenario& scenario, int cells, double cell_m);
+  LocalMap(const World& world, int cells, double cell_m);
 
   // Once a control period: the tool was moved to here.
   void Sweep(const Pose2& X_WB) { swept_.Add(X_WB); }

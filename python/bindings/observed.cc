@@ -17,14 +17,14 @@ float Within(double value, float low, float high) {
 }  // namespace
 
 Observed::Observed(const Scenario& s, const Outlook& outlook)
-    : local(s, outlook.local_cells, outlook.local_cell_m), outlook_(outlook) {}
+    : local(s.world, outlook.local_cells, outlook.local_cell_m), outlook_(outlook) {}
 
 void Observed::Begin(const Scenario& s, SteppedEpisode& episode, bool follows,
                      const SpaceBounds* spaces) {
   const LidarScan& scan = episode.view().sensed.scan;
   const SpaceBounds own = SpaceBoundsOf(s, scan);
   if (spaces != nullptr) {
-    RequireSameShape(s, own, *spaces);
+    RequireSameShape(s.spec, own, *spaces);
     lacks = spaces->Lacks(own);
   }
   bounds = spaces != nullptr ? *spaces : own;

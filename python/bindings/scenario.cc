@@ -100,7 +100,7 @@ std::shared_ptr<Planned> PlanOf(const std::shared_ptr<Scenario>& scenario) {
 
 std::string CheckText(const Planned& p) {
   return WithoutGil(
-      [&] { return JsonText(PlanCheckJson(*p.scenario, CheckPlan(*p.scenario, p.plan))); });
+      [&] { return JsonText(PlanCheckJson(p.scenario->world, CheckPlan(*p.scenario, p.plan))); });
 }
 
 // predict.json's content.

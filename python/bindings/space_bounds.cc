@@ -64,14 +64,14 @@ std::string SpaceBounds::Lacks(const SpaceBounds& own) const {
   return text;
 }
 
-void RequireSameShape(const Scenario& s, const SpaceBounds& own, const SpaceBounds& spaces) {
+void RequireSameShape(const ScenarioSpec& spec, const SpaceBounds& own, const SpaceBounds& spaces) {
   if (own.holonomic != spaces.holonomic)
-    throw InputError({s.spec.file.string(), 0}, "robot", own.robot,
+    throw InputError({spec.file.string(), 0}, "robot", own.robot,
                      std::string("takes ") + ActionOf(own) + ", but the action space is " +
                          spaces.robot + "'s: " + ActionOf(spaces) +
                          "; an environment of its own can drive it");
   if (own.beams != spaces.beams)
-    throw InputError({s.spec.file.string(), 0}, "sensors.lidar.beams", std::to_string(own.beams),
+    throw InputError({spec.file.string(), 0}, "sensors.lidar.beams", std::to_string(own.beams),
                      "must be " + std::to_string(spaces.beams) +
                          ", as in the observation space: all episodes of an environment have as "
                          "many");

@@ -32,6 +32,6 @@ SpaceBounds SpaceBoundsOf(const Scenario& scenario, const LidarScan& scan);
 
 // Throws InputError where an episode cannot be told, or driven, in these spaces: another number of
 // beams, or of the action's numbers.
-void RequireSameShape(const Scenario& scenario, const SpaceBounds& own, const SpaceBounds& spaces);
+void RequireSameShape(const ScenarioSpec& spec, const SpaceBounds& own, const SpaceBounds& spaces);
 
 }  // namespace floorproof

@@ -222,7 +222,7 @@ class Stepped {
   // floor take, and a minute, unless the scenario says otherwise.
   void GoFreely(Scenario& s) const {
     const RobotSpec& robot = s.world.robot.spec;
-    s.agents.online.reset();
+    if (s.spec.plan_by == PlanBy::kOnline) s.spec.plan_by = PlanBy::kNobody;
     if (!s.spec.episode.stop_at_coverage)
       s.spec.episode.stop_at_coverage =
           s.spec.episode.min_coverage > 0 ? s.spec.episode.min_coverage : 1;

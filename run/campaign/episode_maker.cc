@@ -43,7 +43,7 @@ const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Sc
     for (const char* list : {"visits_by_risk", "sample_places", "convergence_m"})
       json.erase(list);  // a row holds numbers
     last.made.clear();
-    if (ProgramToAsk(s) != nullptr && last.plan.status == PlanStatus::kSuccess) {
+    if (ProgramToAsk(s.spec) != nullptr && last.plan.status == PlanStatus::kSuccess) {
       last.made = PlanCsv(last.plan.path);
       json["made"] = Sha256(last.made);
     }
@@ -67,7 +67,7 @@ EpisodeRow EpisodeMaker::Drive(const Variant& variant, Scenario& s) {
   std::optional<Scene> scene;
   ReplayObserver replay(s.spec.episode.control_hz, nullptr);
   const EpisodeRecord record = ExecutePlan(s, planned.plan, scene, replays_ ? &replay : nullptr);
-  EpisodeRow row = MakeRow(variant.name, s, WithFigures(planned.json, record), record);
+  EpisodeRow row = MakeRow(variant.name, s.spec, WithFigures(planned.json, record), record);
   row.made = planned.made;
   if (replays_ && IsListed(row)) row.replay = replay.Bytes(scene, record);
   return row;

@@ -29,18 +29,18 @@ std::string EpisodeRow::ResultHash() const {
   return Sha256(text);
 }
 
-EpisodeRow MakeRow(const std::string& variant, const Scenario& s, const std::string& plan,
+EpisodeRow MakeRow(const std::string& variant, const ScenarioSpec& spec, const std::string& plan,
                    const EpisodeRecord& record) {
   EpisodeRow row;
   row.variant = variant;
-  row.episode = s.spec.episode_id;
+  row.episode = spec.episode_id;
   row.outcome = Name(record.outcome);
   row.message = record.message;
   for (const Event& event : record.events) ++row.events_of[static_cast<std::size_t>(event.mode)];
   if (record.steps > 0)
     for (std::size_t i = 0; i < kMetrics.size(); ++i)
       row.metrics[i] = kMetrics[i].Of(record.metrics);
-  row.drawn = DrawnJson(s.spec.drawn).dump();
+  row.drawn = DrawnJson(spec.drawn).dump();
   row.plan = plan;
   row.events = EventsJson(record.events).dump();
   row.timeout = TimeoutJson(record.timeout).dump();

@@ -17,7 +17,7 @@
 namespace floorproof {
 
 struct EpisodeRecord;
-struct Scenario;
+struct ScenarioSpec;
 
 struct EpisodeRow {
   std::string variant;
@@ -51,7 +51,7 @@ struct EpisodeRow {
   }
 };
 
-EpisodeRow MakeRow(const std::string& variant, const Scenario& scenario, const std::string& plan,
+EpisodeRow MakeRow(const std::string& variant, const ScenarioSpec& spec, const std::string& plan,
                    const EpisodeRecord& record);
 
 // Its events; their evidence is left out. Throws InternalError where the text is damaged.

@@ -53,9 +53,10 @@ std::string ShapeChange(const Path& path, const std::string& shape) {
 
 }  // namespace
 
-std::uint32_t ProgramSeed(const Scenario& s, const PlanCommand& program) {
-  if (program.uses_seed) return static_cast<std::uint32_t>(EpisodeStream(s, "plan").Next() >> 32);
-  return static_cast<std::uint32_t>(s.spec.episode.seed);
+std::uint32_t ProgramSeed(const ScenarioSpec& spec, const PlanCommand& program) {
+  if (program.uses_seed)
+    return static_cast<std::uint32_t>(EpisodeStream(spec, "plan").Next() >> 32);
+  return static_cast<std::uint32_t>(spec.episode.seed);
 }
 
 ProgramAnswer AskProgram(const Scenario& s, const PlanCommand& program,
@@ -63,7 +64,7 @@ ProgramAnswer AskProgram(const Scenario& s, const PlanCommand& program,
   CheckProgram(program, s.files);
   ExchangeFolder exchange;
   const fs::path& folder = exchange.path();
-  WritePlanRequest(request, ProgramSeed(s, program), folder);
+  WritePlanRequest(request, ProgramSeed(s.spec, program), folder);
   ProgramCall call{program.words, fs::absolute(program.folder.empty() ? "." : program.folder),
                    program.timeout_s};
   call.words.push_back(folder.string());

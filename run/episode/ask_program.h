@@ -21,6 +21,6 @@ ProgramAnswer AskProgram(const Scenario& scenario, const PlanCommand& program,
                          const PlanRequest& request);
 
 // The seed in its request: the scenario's own, or, of a program that draws, one for each episode.
-std::uint32_t ProgramSeed(const Scenario& scenario, const PlanCommand& program);
+std::uint32_t ProgramSeed(const ScenarioSpec& spec, const PlanCommand& program);
 
 }  // namespace floorproof

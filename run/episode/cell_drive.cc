@@ -25,8 +25,7 @@ class CellDrive {
   CellDrive(Scenario& s, Grid<std::uint8_t> blocked, Cell start, EpisodeObserver* observer)
       : s_(s),
         observer_(observer),
-        world_(s.world.site.map.frame, std::move(blocked), start,
-               s.agents.online->params().radius_m),
+        world_(s.world.site.map.frame, std::move(blocked), start, s.spec.online.radius_m),
         known_(s.world.site.map.frame),
         limit_s_(OnlineLimit_s(s.spec.episode)) {
     known_.changed.emplace();
@@ -36,7 +35,7 @@ class CellDrive {
 
   EpisodeRecord Run() {
     s_.agents.online->Start(
-        {world_.frame(), estimate_.X_WB, {}, {}, world_.frame().cell_m, PlanSeed(s_)});
+        {world_.frame(), estimate_.X_WB, {}, {}, world_.frame().cell_m, PlanSeed(s_.spec)});
     std::optional<Outcome> ended;
     for (Trace(); !ended;) ended = Period();
     return Finish(*ended);
@@ -85,8 +84,7 @@ class CellDrive {
     turns_ += world_.moves() > 1 && std::abs(WrapAngle(yaw_rad - sample_.yaw_rad)) > 0.1;
     sample_.yaw_rad = yaw_rad;
     length_m_ += way_W.norm();
-    sample_.t_s =
-        length_m_ / s_.agents.online->params().speed_mps.value_or(s_.world.robot.spec.cruise_mps);
+    sample_.t_s = length_m_ / s_.spec.online.speed_mps.value_or(s_.world.robot.spec.cruise_mps);
     Look();
     Trace();
     return true;

@@ -107,8 +107,7 @@ class EpisodeLoop {
   EpisodeRecord Finish(Outcome ended) {
     EpisodeRecord record = recorder_.Finish(ended, sample_, robot_side_, s_.agents.detectors,
                                             s_.spec.episode.min_coverage, plant_.battery_left());
-    if (s_.agents.online && !navigator_->plan().empty())
-      record.figures = s_.agents.online->figures();
+    if (online_ && !navigator_->plan().empty()) record.figures = s_.agents.online->figures();
     if (ended == Outcome::kError) record.message = plant_.WhyBroken();
     if (record.message.empty()) record.message = navigator_->why();
     if (record.outcome == Outcome::kTimeout) {
@@ -173,6 +172,7 @@ class EpisodeLoop {
   Simulation* simulation_;
   EpisodeObserver* observer_;
   const RobotSpec& robot_;
+  bool online_;  // planned on the way
   HazardMap known_, true_;
   SweepArea area_;
   double plan_m_, limit_s_ = 0;
@@ -202,33 +202,33 @@ EpisodeLoop::EpisodeLoop(Scenario& s, Plant& plant, Simulation* simulation, cons
       simulation_(simulation),
       observer_(observer),
       robot_(s.world.robot.spec),
+      online_(s.spec.plan_by == PlanBy::kOnline),
       known_(KnownFloor(s.world)),
       true_(TrueFloor(s.world)),
       area_(ComputeSweepArea(true_, robot_, robot_.clear, robot_.tool, s.world.start)),
-      plan_m_(s.agents.online ? std::numeric_limits<double>::infinity()
-                              : std::max(Length(plan.path), 1e-9)),
+      plan_m_(online_ ? std::numeric_limits<double>::infinity()
+                      : std::max(Length(plan.path), 1e-9)),
       steps_a_control_(std::lround(1.0 / (s.spec.episode.control_hz * s.world.physics.timestep_s))),
       recorder_(s, area_, plan),
       blows_(robot_, s.world.physics.timestep_s),
       sight_(SightOf(s)),
       encounters_(true_, robot_, IsHolonomic(robot_), OrNull(sight_)),
-      interventions_(s),
+      interventions_(s.spec.episode, s.world),
       navigator_(navigator ? std::move(navigator) : MakeNavigator(s, plan, known_)),
       robot_side_(robot_, known_, *navigator_,
                   {*s.agents.tracker, *s.agents.estimator, OrNull(s.agents.mapper),
-                   OrNull(s.agents.recovery), OrNull(s.agents.safety), !s.agents.online},
+                   OrNull(s.agents.recovery), OrNull(s.agents.safety), !online_},
                   1.0 / s.spec.episode.control_hz) {
-  if (!s.agents.online && !LeadsItself(s)) passed_.emplace(plan.path, s.spec.episode.arrival_m);
+  if (!online_ && !LeadsItself(s.spec)) passed_.emplace(plan.path, s.spec.episode.arrival_m);
 }
 
 void EpisodeLoop::Begin() {
   plant_.Reset(s_.world.start, sensed_);
   Look();
-  robot_side_.Start(s_.world.start, EpisodeStream(s_, "estimator"));
-  const double plan_s =
-      LeadsItself(s_) ? GoToDuration(navigator_->plan(), robot_) : s_.agents.tracker->Duration();
-  limit_s_ =
-      s_.agents.online ? OnlineLimit_s(s_.spec.episode) : PlanLimit_s(s_.spec.episode, plan_s);
+  robot_side_.Start(s_.world.start, EpisodeStream(s_.spec, "estimator"));
+  const double plan_s = LeadsItself(s_.spec) ? GoToDuration(navigator_->plan(), robot_)
+                                             : s_.agents.tracker->Duration();
+  limit_s_ = online_ ? OnlineLimit_s(s_.spec.episode) : PlanLimit_s(s_.spec.episode, plan_s);
   recorder_.Expect(plan_s);
   StartDetectors();
   Perceive(1.0 / s_.spec.episode.control_hz);
@@ -263,7 +263,7 @@ std::optional<Outcome> EpisodeLoop::Control() {
     encounters_.Lift();
     blows_.Lift();
     Look();
-    robot_side_.Helped(sample_.X_WB(), EpisodeStream(s_, "estimator"), sample_.t_s);
+    robot_side_.Helped(sample_.X_WB(), EpisodeStream(s_.spec, "estimator"), sample_.t_s);
     Act(robot_side_.actuation());
     StartDetectors();
   }
@@ -306,8 +306,8 @@ Arrival EpisodeLoop::HowItArrived() const {
   Arrival how;
   how.believed = rest_.begun();
   how.most_off_m = s_.spec.episode.arrival_m;
-  if (!s_.agents.online) {
-    how.end_W = (LeadsItself(s_) ? navigator_->path() : navigator_->plan()).back().p_W;
+  if (!online_) {
+    how.end_W = (LeadsItself(s_.spec) ? navigator_->path() : navigator_->plan()).back().p_W;
     how.off_m = (sample_.p_WB.head<2>() - how.end_W).norm();
   }
   how.at_rest = rest_.HasRested(sample_.t_s);
@@ -416,7 +416,7 @@ namespace {
 PhysicsPlant MakePlant(Scenario& s, const Scene& scene) {
   return PhysicsPlant(scene, s.world.site.map, s.world.robot.spec, s.agents.sensors, s.world.faults,
                       1.0 / s.spec.episode.control_hz,
-                      [&s](const std::string& name) { return EpisodeStream(s, name); });
+                      [&s](const std::string& name) { return EpisodeStream(s.spec, name); });
 }
 
 }  // namespace

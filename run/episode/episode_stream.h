@@ -5,12 +5,12 @@
 #include <string_view>
 
 #include "base/streams.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/scenario_spec.h"
 
 namespace floorproof {
 
-inline Stream EpisodeStream(const Scenario& s, std::string_view name) {
-  return {static_cast<std::uint64_t>(s.spec.episode.seed), s.spec.episode_id, name};
+inline Stream EpisodeStream(const ScenarioSpec& spec, std::string_view name) {
+  return {static_cast<std::uint64_t>(spec.episode.seed), spec.episode_id, name};
 }
 
 }  // namespace floorproof

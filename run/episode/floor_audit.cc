@@ -35,7 +35,7 @@ std::vector<Pose2> PosesAlong(const Path& path) {
 void Clean(const Scenario& s, const RiskMap& risk, DirtField& field) {
   const PlanResult plan = CleanerPlan(s, risk);
   const std::vector<Pose2> poses = PosesAlong(plan.path);
-  Stream random = EpisodeStream(s, "cleaning");
+  Stream random = EpisodeStream(s.spec, "cleaning");
   for (int round = 0; round < s.world.dirt->cleaning.rounds; ++round)
     CleanAlong(field, plan.tool, poses, s.world.dirt->cleaning.brush, random);
 }
@@ -114,7 +114,7 @@ PlanResult CleanerPlan(const Scenario& s, const RiskMap& risk) {
   const HazardMap known = KnownFloor(s.world);
   PlanResult plan =
       s.world.dirt->cleaner->Plan({known, s.world.robot.spec, s.world.start, s.world.goal,
-                                   EpisodeStream(s, "cleaner").Next(), &risk});
+                                   EpisodeStream(s.spec, "cleaner").Next(), &risk});
   if (plan.status != PlanStatus::kSuccess)
     throw InputError(s.world.dirt->cleaner_mark, "dirt.cleaning.plan.planner",
                      s.world.dirt->cleaner_name,
@@ -124,7 +124,7 @@ PlanResult CleanerPlan(const Scenario& s, const RiskMap& risk) {
 
 DirtField DirtyFloor(const Scenario& s, const RiskMap& risk) {
   DirtField field =
-      LayDirt(s.world.site.map, s.world.dirt->params.laid, EpisodeStream(s, "dirt").Next());
+      LayDirt(s.world.site.map, s.world.dirt->params.laid, EpisodeStream(s.spec, "dirt").Next());
   if (s.world.dirt->cleaning.rounds > 0) Clean(s, risk, field);
   return field;
 }
@@ -133,7 +133,8 @@ FloorAudit AuditFloor(const Scenario& s, const PlanResult& plan,
                       const std::vector<SampleStop>& stops, DirtField field) {
   FloorAudit audit;
   MeasureDirt(field, audit);
-  Stream lift = EpisodeStream(s, "samples_lift"), tapes = EpisodeStream(s, "samples_tapes");
+  Stream lift = EpisodeStream(s.spec, "samples_lift"),
+         tapes = EpisodeStream(s.spec, "samples_tapes");
   for (const SampleStop& stop : stops) {
     const Pose2 X_WT = TapePose(s.world.robot.spec, stop);
     audit.samples.push_back(

@@ -55,10 +55,10 @@ double HeadingAt(const Path& path, std::size_t waypoint) {
 
 }  // namespace
 
-std::optional<SetDownPlace> PlaceAhead(const Scenario& s, const Path& path, std::size_t first) {
-  const HazardMap& map = s.world.site.map;
-  const RobotSpec& robot = s.world.robot.spec;
-  const Grid<std::uint8_t> floor = FloorAround(map, s.world.start.p());
+std::optional<SetDownPlace> PlaceAhead(const World& world, const Path& path, std::size_t first) {
+  const HazardMap& map = world.site.map;
+  const RobotSpec& robot = world.robot.spec;
+  const Grid<std::uint8_t> floor = FloorAround(map, world.start.p());
   const double drawn_back_m = std::min(map.inset_m, robot.inscribed_radius_m / 2);
   const Polygon outline_B = Outline(robot.clear), inner_B = Offset(outline_B, -kBeside_m),
                 among_walls_B = Offset(inner_B, -drawn_back_m);
@@ -73,10 +73,10 @@ std::optional<SetDownPlace> PlaceAhead(const Scenario& s, const Path& path, std:
 }
 
 bool Interventions::Call(const Path& path, const Sample& failed) {
-  if (s_.spec.episode.on_failure != "assist") return false;
+  if (params_.on_failure != "assist") return false;
   if (failed.battery_v == 0) return false;  // a robot without power goes on from nowhere
   const std::size_t ahead = failed.command.segment + 1;
-  place_ = PlaceAhead(s_, path, ahead);
+  place_ = PlaceAhead(world_, path, ahead);
   if (!place_) {
     why_not_ = fmt::format("nowhere ahead of x {:.2f}, y {:.2f} m could the robot be set down: {}",
                            failed.p_WB.x(), failed.p_WB.y(),

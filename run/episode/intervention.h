@@ -28,15 +28,14 @@ struct SetDownPlace {
   std::size_t waypoint = 0;
   Pose2 X_WB;
 };
-std::optional<SetDownPlace> PlaceAhead(const Scenario& scenario, const Path& path,
-                                       std::size_t first);
+std::optional<SetDownPlace> PlaceAhead(const World& world, const Path& path, std::size_t first);
 
 class Interventions {
  public:
   static constexpr double kComes_s = 30;
 
-  // `scenario` outlives it.
-  explicit Interventions(const Scenario& scenario) : s_(scenario) {}
+  // Both outlive it.
+  Interventions(const EpisodeParams& params, const World& world) : params_(params), world_(world) {}
 
   // The robot failed on this path, just now. False: nobody comes, and why_not() says why where it
   // is not the scenario's choice.
@@ -48,10 +47,11 @@ class Interventions {
   // Carries the robot and sends it on its way; from here on nobody is awaited.
   Intervention SetDown(Plant& plant, RobotSide& side);
   // What waiting adds to a time limit that the scenario does not write.
-  double extra_s() const { return s_.spec.episode.time_limit_s ? 0 : calls_ * kComes_s; }
+  double extra_s() const { return params_.time_limit_s ? 0 : calls_ * kComes_s; }
 
  private:
-  const Scenario& s_;
+  const EpisodeParams& params_;
+  const World& world_;
   std::optional<SetDownPlace> place_;  // to which it will be carried
   double comes_s_ = 0;
   int calls_ = 0;

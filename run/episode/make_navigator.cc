@@ -28,8 +28,8 @@ Extent Around(const Shape2& shape) {
 std::unique_ptr<Navigator> MakeNavigator(const Scenario& s, const PlanResult& plan,
                                          const HazardMap& known) {
   const RobotSpec& robot = s.world.robot.spec;
-  if (LeadsItself(s)) return std::make_unique<GoToNavigator>(plan);
-  if (!s.agents.online)
+  if (LeadsItself(s.spec)) return std::make_unique<GoToNavigator>(plan);
+  if (s.spec.plan_by != PlanBy::kOnline)
     return std::make_unique<PlanNavigator>(plan, known, robot,
                                            s.agents.recovery ? &*s.agents.recovery : nullptr);
   const HeldShapes held = HoldYaw(known, s.world.start, robot.clear, robot.tool);
@@ -38,7 +38,7 @@ std::unique_ptr<Navigator> MakeNavigator(const Scenario& s, const PlanResult& pl
       *s.agents.online,
       OnlineNavigator::Robot{body, body.Wider(kMargin_m), Around(held.tool), robot.tool_width_m,
                              kPlannedShare * robot.max_accel_mps2, held.yaw_rad},
-      s.world.start.p(), PlanSeed(s));
+      s.world.start.p(), PlanSeed(s.spec));
 }
 
 }  // namespace floorproof

@@ -15,14 +15,14 @@
 
 namespace floorproof {
 
-std::uint64_t PlanSeed(const Scenario& s) { return EpisodeStream(s, "plan").Next(); }
+std::uint64_t PlanSeed(const ScenarioSpec& spec) { return EpisodeStream(spec, "plan").Next(); }
 
 namespace {
 
 PlanResult NotOurs(const Scenario& s, const PlanRequest& request) {
   PlanResult plan;
   Path path = s.spec.user_plan;
-  if (const PlanCommand* program = ProgramToAsk(s)) {
+  if (const PlanCommand* program = ProgramToAsk(s.spec)) {
     ProgramAnswer answer = AskProgram(s, *program, request);
     path = std::move(answer.path);
     plan.message = std::move(answer.failure);
@@ -70,16 +70,15 @@ PlanResult MakePlan(const Scenario& s) {
   const HazardMap known = KnownFloor(s.world);
   auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.spec.fmea, s.spec.risk));
   const std::vector<DriveConditions> conditions =
-      s.agents.planner && s.agents.planner->promises().needs_model ? ConditionsOf(s)
-                                                                   : std::vector<DriveConditions>();
-  const PlanRequest request{known,       robot,      s.world.start, s.world.goal,
-                            PlanSeed(s), risk.get(), s.spec.places, s.spec.risk_model.get(),
-                            conditions};
+      s.spec.promises.needs_model ? ConditionsOf(s) : std::vector<DriveConditions>();
+  const PlanRequest request{
+      known,      robot,         s.world.start,           s.world.goal, PlanSeed(s.spec),
+      risk.get(), s.spec.places, s.spec.risk_model.get(), conditions};
   PlanResult plan;
-  if (s.agents.planner) {
+  if (s.spec.plan_by == PlanBy::kPlanner) {
     plan = Planned(*s.agents.planner, request);
   } else {
-    if (s.agents.online) {
+    if (s.spec.plan_by == PlanBy::kOnline) {
       plan.status = PlanStatus::kOnline;
       plan.message = s.spec.planner_name + " plans while it drives, as the floor becomes known";
     } else {

@@ -14,6 +14,6 @@ namespace floorproof {
 PlanResult MakePlan(const Scenario& scenario);
 
 // What the draws of an episode's planner begin with.
-std::uint64_t PlanSeed(const Scenario& scenario);
+std::uint64_t PlanSeed(const ScenarioSpec& spec);
 
 }  // namespace floorproof

@@ -15,7 +15,7 @@ namespace {
 // robot's keys: the battery's voltage.
 std::string ProgramInputs(const Scenario& s, const PlanCommand& program) {
   std::string text =
-      DescribeRobot(s.world.robot.spec).dump() + std::to_string(ProgramSeed(s, program));
+      DescribeRobot(s.world.robot.spec).dump() + std::to_string(ProgramSeed(s.spec, program));
   for (const std::string& word : program.words) text += "\n" + word;
   return text;
 }
@@ -40,7 +40,7 @@ std::string PlanInputs(const Scenario& s) {
   ConfigNode params = ConfigNode::Map();
   if (Configurable* planner = PlannerOf(s))
     WriteParams(*planner, params);
-  else if (const PlanCommand* program = ProgramToAsk(s))
+  else if (const PlanCommand* program = ProgramToAsk(s.spec))
     text += "\n" + ProgramInputs(s, *program);
   else
     text += "\n" + PlanCsv(s.spec.user_plan);
@@ -51,12 +51,11 @@ std::string PlanInputs(const Scenario& s) {
   params.Add("tables", ConfigNode::Scalar(s.spec.fmea_file.string(), true));
   params.Add("model", ConfigNode::Scalar(s.spec.risk_model_file.string(), true));
   text += "\n" + WriteYaml(params);
-  if (s.agents.planner && s.agents.planner->promises().needs_model)
+  if (s.spec.promises.needs_model)
     for (const DriveConditions& c : ConditionsOf(s))
       for (const double value : {c.friction, c.mass_kg, c.clearance_m})
         text += " " + FormatDouble(value);
-  if (s.agents.planner && s.agents.planner->promises().uses_seed)
-    text += std::to_string(s.spec.episode_id);
+  if (s.spec.promises.uses_seed) text += std::to_string(s.spec.episode_id);
   return text;
 }
 

@@ -29,7 +29,7 @@ class Recorder {
         meter_(area, s.world.robot.spec),
         risk_(*plan.risk),
         samples_(plan.samples.size()),
-        asks_for_risk_(AsksForRisk(s)),
+        asks_for_risk_(AsksForRisk(s.spec)),
         dt_s_(s.world.physics.timestep_s),
         trace_hz_(s.spec.episode.trace_hz),
         trace_every_(s.spec.episode.control_hz / s.spec.episode.trace_hz) {

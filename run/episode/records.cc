@@ -104,7 +104,7 @@ void AddReadings(const AuditSample& sample, Json& json) {
 }
 
 // `driven`: nullptr before the drive.
-Json SamplesJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord* driven) {
+Json SamplesJson(const World& world, const PlanResult& plan, const EpisodeRecord* driven) {
   Json json = Json::array();
   for (const SamplePlace& sample : plan.samples) {
     json.push_back(PlaceJson(sample));
@@ -113,14 +113,14 @@ Json SamplesJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord*
   if (driven == nullptr) return json;
   for (std::size_t i = 0; i < driven->sample_stops.size(); ++i) {
     const SampleStop& stop = driven->sample_stops[i];
-    const Pose2 X_WT = TapePose(s.world.robot.spec, stop);
+    const Pose2 X_WT = TapePose(world.robot.spec, stop);
     Json& taken = json[static_cast<std::size_t>(stop.place)];
     taken["status"] = "taken";
     taken["tape"] = {{"t_s", stop.t_s},
                      {"x_m", Coordinate(X_WT.x_m)},
                      {"y_m", Coordinate(X_WT.y_m)},
                      {"yaw_rad", X_WT.yaw_rad},
-                     {"off_m", OffPlace(s.world.robot.spec, plan, stop)}};
+                     {"off_m", OffPlace(world.robot.spec, plan, stop)}};
     if (driven->audit) AddReadings(driven->audit->samples[i].sample, taken);
   }
   return json;
@@ -292,9 +292,9 @@ Json PlanJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord* dr
                {"tool_width_m", plan.tool_width_m},
                {"keeps_clear", circle ? "circle" : "footprint"},
                {"radius_m", circle ? plan.clear.radius_m : s.world.robot.spec.inscribed_radius_m}};
-  if (AsksForRisk(s)) AddRisk(plan, json);
+  if (AsksForRisk(s.spec)) AddRisk(plan, json);
   for (const auto& [name, value] : plan.figures) json[name] = value;
-  if (!plan.samples.empty()) json["sample_places"] = SamplesJson(s, plan, driven);
+  if (!plan.samples.empty()) json["sample_places"] = SamplesJson(s.world, plan, driven);
   if (!plan.convergence_m.empty()) json["convergence_m"] = plan.convergence_m;
   return json;
 }
@@ -374,7 +374,7 @@ namespace {
 // Where the plan is that a program has made, for the settings; empty: none has.
 std::filesystem::path KeepMadePlan(const Scenario& s, const PlanResult& plan,
                                    const std::filesystem::path& folder) {
-  if (ProgramToAsk(s) == nullptr || plan.status != PlanStatus::kSuccess) return {};
+  if (ProgramToAsk(s.spec) == nullptr || plan.status != PlanStatus::kSuccess) return {};
   const std::string text = PlanCsv(plan.path);
   std::filesystem::path copy = KeepText(text, folder);
   s.files.Hold(copy, text);
@@ -409,7 +409,7 @@ Json WritePlanFiles(const Scenario& s, const PlanResult& plan,
     WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
   Json json = PlanJson(s, plan);
   WriteFileWhole(folder / "plan.json", JsonText(json) + "\n");
-  if (AsksForRisk(s)) {
+  if (AsksForRisk(s.spec)) {
     WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
   } else {
     for (const char* name :

@@ -60,12 +60,12 @@ class Meeting {
 
 }  // namespace
 
-std::vector<DrivenOver> FindDrivenOver(const Scenario& s, const PlanResult& plan) {
-  const HazardMap floor = TrueFloor(s.world);
+std::vector<DrivenOver> FindDrivenOver(const World& world, const PlanResult& plan) {
+  const HazardMap floor = TrueFloor(world);
   const auto& hazards = floor.hazards;
   if (hazards.empty()) return {};
-  Meeting meeting(floor, s.world.robot.spec);
-  SweepPlan(s.world.robot, s.world.start, plan.path,
+  Meeting meeting(floor, world.robot.spec);
+  SweepPlan(world.robot, world.start, plan.path,
             [&](const SweptPiece& piece) { meeting.Look(piece); });
   std::vector<DrivenOver> found = meeting.Found();
   std::ranges::stable_sort(found, [&](const DrivenOver& a, const DrivenOver& b) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planners/planner.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 
@@ -20,6 +20,6 @@ struct DrivenOver {
 // Of the true site: what is known and can be driven over, and whatever is not known. Those that are
 // not known first, and of each kind the one with the longest way. The robot is moved as
 // CheckClearance (run/plan_check/plan_clearance.h) moves it, which says what it must keep off.
-std::vector<DrivenOver> FindDrivenOver(const Scenario& scenario, const PlanResult& plan);
+std::vector<DrivenOver> FindDrivenOver(const World& world, const PlanResult& plan);
 
 }  // namespace floorproof

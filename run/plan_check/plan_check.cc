@@ -230,8 +230,9 @@ std::string SweptText(const PlanResult& plan, const Json& json) {
 PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
   const SweepArea area = ComputeSweepArea(KnownFloor(s.world), s.world.robot.spec, plan.clear,
                                           plan.tool, s.world.start);
-  return {CheckClearance(s, plan), FindDrivenOver(s, plan), FindUncovered(s, plan, area),
-          EstimateBudget(s, plan), CountSharpCorners(plan.path, s.world.robot.spec)};
+  return {CheckClearance(s.world, plan), FindDrivenOver(s.world, plan),
+          FindUncovered(s.world, plan, area), EstimateBudget(s, plan),
+          CountSharpCorners(plan.path, s.world.robot.spec)};
 }
 
 std::string ConflictsLine(const PlanClearance& clearance) {
@@ -248,21 +249,21 @@ std::string SharpCornersLine(const RobotSpec& robot, int sharp_corners) {
       CountText(sharp_corners, "corner"), Metres(robot.turn_radius_m));
 }
 
-std::string UnheldDwellLine(const Scenario& s, const PlanResult& plan) {
-  const auto dwell = FindUnheldDwell(s, plan);
+std::string UnheldDwellLine(const World& world, const PlanResult& plan) {
+  const auto dwell = FindUnheldDwell(world, plan);
   if (!dwell) return "";
   const std::string where = fmt::format(
       "warning: the plan dwells at {} on a slope of {:.1f} deg, where the robot rolls away: ",
       At(dwell->p_W), dwell->slope_rad * 180 / kPi);
-  if (s.world.robot.spec.standstill == Standstill::kFree)
+  if (world.robot.spec.standstill == Standstill::kFree)
     return where + "its wheels turn freely (`standstill` in its model)";
   return where + fmt::format("its motors hold {} N, but its weight pulls {} N down the slope",
                              NumberText(dwell->holds_n), NumberText(dwell->pulls_n));
 }
 
-std::vector<std::string> CrossingLines(const Scenario& s, const PlanClearance& clearance) {
+std::vector<std::string> CrossingLines(const World& world, const PlanClearance& clearance) {
   std::vector<std::string> lines;
-  AddCrossings(KnownFloor(s.world), s.world.robot.spec, clearance, lines);
+  AddCrossings(KnownFloor(world), world.robot.spec, clearance, lines);
   return lines;
 }
 
@@ -286,7 +287,8 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
                s.agents.estimator->error_m(floor, Length(plan.path)), lines);
   if (const auto sharp = SharpCornersLine(s.world.robot.spec, check.sharp_corners); !sharp.empty())
     lines.push_back(sharp);
-  if (auto unheld = UnheldDwellLine(s, plan); !unheld.empty()) lines.push_back(std::move(unheld));
+  if (auto unheld = UnheldDwellLine(s.world, plan); !unheld.empty())
+    lines.push_back(std::move(unheld));
   AddCrossings(floor, s.world.robot.spec, check.clearance, lines);
   AddDrivenOver(TrueFloor(s.world), s.world.robot.spec, check.driven_over, lines);
   if (plan.samples.empty())
@@ -301,8 +303,8 @@ namespace {
 // A plan of the user's own is taken for one that covers, unless `success` says otherwise.
 bool IsToCover(const Scenario& s) {
   if (s.spec.episode.min_coverage > 0) return true;
-  if (s.agents.planner)
-    return s.agents.planner->promises().covers != PlannerPromises::Covers::kNothing;
+  if (s.spec.plan_by == PlanBy::kPlanner)
+    return s.spec.promises.covers != PlannerPromises::Covers::kNothing;
   return !s.spec.written.contains("success");
 }
 
@@ -333,7 +335,7 @@ std::vector<std::string> PlanFaults(const Scenario& s, const PlanResult& plan,
   return faults;
 }
 
-Json PlanCheckJson(const Scenario& s, const PlanCheck& check) {
+Json PlanCheckJson(const World& world, const PlanCheck& check) {
   const PlanClearance& c = check.clearance;
   Json conflicts = Json::array();
   for (const PlanConflict& conflict : c.conflicts) {
@@ -357,7 +359,7 @@ Json PlanCheckJson(const Scenario& s, const PlanCheck& check) {
                  {"times", crossing.times}});
     crossings.push_back(std::move(json));
   }
-  const HazardMap true_floor = TrueFloor(s.world);
+  const HazardMap true_floor = TrueFloor(world);
   Json over = Json::array();
   for (const DrivenOver& driven : check.driven_over) {
     const Hazard& hazard = true_floor.hazards[driven.hazard];
@@ -394,7 +396,7 @@ Json PlanCheckJson(const Scenario& s, const PlanCheck& check) {
                {"expected_energy_j", check.budget.energy_j},
                {"expected_battery_share",
                 check.budget.battery_share ? Json(*check.budget.battery_share) : Json(nullptr)}};
-  if (s.world.robot.spec.turn_radius_m > 0) json["sharp_corners"] = check.sharp_corners;
+  if (world.robot.spec.turn_radius_m > 0) json["sharp_corners"] = check.sharp_corners;
   return json;
 }
 

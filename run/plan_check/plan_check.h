@@ -43,17 +43,17 @@ std::vector<std::string> PlanLines(const Scenario& scenario, const PlanResult& p
 inline constexpr std::array<std::string_view, 3> kPlanFaults = {"overlap", "gap", "warning"};
 std::vector<std::string> PlanFaults(const Scenario& scenario, const PlanResult& plan,
                                     const PlanCheck& check, std::span<const std::string> lines);
-nlohmann::ordered_json PlanCheckJson(const Scenario& scenario, const PlanCheck& check);
+nlohmann::ordered_json PlanCheckJson(const World& world, const PlanCheck& check);
 
 // What it crosses beyond what the robot is trusted to, a warning each, five at most and the rest
 // counted.
-std::vector<std::string> CrossingLines(const Scenario& scenario, const PlanClearance& clearance);
+std::vector<std::string> CrossingLines(const World& world, const PlanClearance& clearance);
 
 // One line for who drives a plan; empty where it leads the robot into nothing.
 std::string ConflictsLine(const PlanClearance& clearance);
 
 // One line, too; empty where the robot stands still wherever the plan lets it dwell.
-std::string UnheldDwellLine(const Scenario& scenario, const PlanResult& plan);
+std::string UnheldDwellLine(const World& world, const PlanResult& plan);
 
 // One line, too; empty where no corner is too sharp for the robot. `sharp_corners` as of PlanCheck.
 std::string SharpCornersLine(const RobotSpec& robot, int sharp_corners);

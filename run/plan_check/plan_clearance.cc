@@ -367,10 +367,10 @@ class Check {
 
 }  // namespace
 
-PlanClearance CheckClearance(const Scenario& s, const PlanResult& plan) {
-  const HazardMap known = KnownFloor(s.world);
-  Check check(known, s.world.robot.spec, s.world.start.p(), plan.path);
-  SweepPlan(s.world.robot, s.world.start, plan.path,
+PlanClearance CheckClearance(const World& world, const PlanResult& plan) {
+  const HazardMap known = KnownFloor(world);
+  Check check(known, world.robot.spec, world.start.p(), plan.path);
+  SweepPlan(world.robot, world.start, plan.path,
             [&](const SweptPiece& piece) { check.Look(piece); });
   return check.Finish();
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planners/planner.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 
@@ -55,6 +55,6 @@ struct PlanClearance {
 // touches. A level change that the plan's line meets (LevelChangesOnTheWay) is crossed, and no
 // obstacle but where the robot's side alone reaches over its edge. Not checked: how far a tracker
 // leaves the plan, also in bends.
-PlanClearance CheckClearance(const Scenario& scenario, const PlanResult& plan);
+PlanClearance CheckClearance(const World& world, const PlanResult& plan);
 
 }  // namespace floorproof

@@ -41,7 +41,7 @@ class Predictor {
                        "is missing: rates that were measured of " + s.spec.robot_name +
                            " are needed to predict by (floorproof measure, an hour, then --model "
                            "risk_model.json)");
-    if (s.agents.online || LeadsItself(s))
+    if (s.spec.plan_by == PlanBy::kOnline || LeadsItself(s.spec))
       throw InputError({s.spec.file.string(), 0}, "plan", s.spec.planner_name,
                        "is made on the way: nothing can be predicted of a plan that is not there");
     RefuseProgram(s);
@@ -142,7 +142,7 @@ class Predictor {
   // a meeting could be rated.
   void FindOtherFloors(const HazardMap& floor, const Scenario& s) {
     if (std::ranges::all_of(floor.hazards, IsOfTheSite)) return;  // the walk over the plan is long
-    for (const DrivenOver& over : FindDrivenOver(s, plan_))
+    for (const DrivenOver& over : FindDrivenOver(s.world, plan_))
       if (const Hazard& hazard = floor.hazards[over.hazard]; !IsOfTheSite(hazard))
         unknown_.emplace(hazard.id,
                          fmt::format("the edge of {}, crossed {}", ObstaclePhrase(floor, hazard.id),

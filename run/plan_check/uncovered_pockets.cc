@@ -194,8 +194,8 @@ std::vector<Patch> Patches(const Mask& cells, double least_half, std::int64_t& r
 
 class Finder {
  public:
-  Finder(const Scenario& s, const PlanResult& plan, const SweepArea& area)
-      : known_(KnownFloor(s.world)), step_m_(s.world.robot.spec.step_m), area_(area), plan_(plan) {
+  Finder(const World& world, const PlanResult& plan, const SweepArea& area)
+      : known_(KnownFloor(world)), step_m_(world.robot.spec.step_m), area_(area), plan_(plan) {
     free_ = FreeOn(known_);
     HazardMap bare = known_;
     bare.hazards.clear();
@@ -350,8 +350,8 @@ double LeastPassage(const Shape2& clear) {
   return BoxAround(clear.footprint_B).Size().minCoeff();
 }
 
-UncoveredFloor FindUncovered(const Scenario& s, const PlanResult& plan, const SweepArea& area) {
-  return Finder(s, plan, area).Find();
+UncoveredFloor FindUncovered(const World& world, const PlanResult& plan, const SweepArea& area) {
+  return Finder(world, plan, area).Find();
 }
 
 }  // namespace floorproof

@@ -8,7 +8,7 @@
 
 #include "env/core/coverage.h"
 #include "planners/planner.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 
@@ -40,8 +40,7 @@ struct UncoveredFloor {
 
 // In cells of the sweep area (at most 5 cm). A pocket is wider than a quarter of the tool and not
 // smaller than a square of half of its width.
-UncoveredFloor FindUncovered(const Scenario& scenario, const PlanResult& plan,
-                             const SweepArea& area);
+UncoveredFloor FindUncovered(const World& world, const PlanResult& plan, const SweepArea& area);
 
 // What the robot must have free to get through, m: its clear circle's diameter, or the lesser side
 // of its footprint.

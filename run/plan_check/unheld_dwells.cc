@@ -9,15 +9,15 @@
 
 namespace floorproof {
 
-std::optional<UnheldDwell> FindUnheldDwell(const Scenario& s, const PlanResult& plan) {
+std::optional<UnheldDwell> FindUnheldDwell(const World& world, const PlanResult& plan) {
   constexpr double kGravity_mps2 = 9.81, kLevel_rad = 0.005;
-  const RobotSpec& robot = s.world.robot.spec;
+  const RobotSpec& robot = world.robot.spec;
   const bool dwells = std::ranges::any_of(plan.path, [](const auto& w) { return w.dwell_s > 0; });
   if (!dwells || robot.standstill == Standstill::kBrake) return std::nullopt;
   double holds_n = 0;
   if (robot.standstill == Standstill::kHold)
     for (const WheelSpec& wheel : robot.wheels) holds_n += wheel.max_torque_nm / wheel.radius_m;
-  const HazardMap floor = TrueFloor(s.world);
+  const HazardMap floor = TrueFloor(world);
   std::optional<UnheldDwell> steepest;
   for (const Waypoint& w : plan.path) {
     if (!(w.dwell_s > 0)) continue;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "planners/planner.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 
@@ -19,6 +19,6 @@ struct UnheldDwell {
 // The steepest of the plan's dwells on a slope of the true floor where the robot rolls away: its
 // wheels turn freely, or its motors, which hold it, are too weak. A brake holds on every slope. Not
 // looked at: whether the tyres slip.
-std::optional<UnheldDwell> FindUnheldDwell(const Scenario& scenario, const PlanResult& plan);
+std::optional<UnheldDwell> FindUnheldDwell(const World& world, const PlanResult& plan);
 
 }  // namespace floorproof

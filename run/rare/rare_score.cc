@@ -13,16 +13,15 @@ constexpr const char* kAny = "any_failure";
 
 }  // namespace
 
-RareScore::RareScore(const std::string& mode, const Scenario& scenario) {
+RareScore::RareScore(const std::string& mode, std::span<const NamedDetector> detectors) {
   std::string known = kAny;
   for (int m = 0; m < kNumFailureModes; ++m) {
     known += std::string(", ") + std::string(Name(static_cast<FailureMode>(m)));
     if (mode == Name(static_cast<FailureMode>(m))) mode_ = static_cast<FailureMode>(m);
   }
   if (!mode_ && mode != kAny) throw InputError({"--mode", 0}, "", mode, "must be one of " + known);
-  const bool told = std::ranges::any_of(scenario.agents.detectors, [&](const NamedDetector& d) {
-    return !mode_ || d.detector->mode() == *mode_;
-  });
+  const bool told = std::ranges::any_of(
+      detectors, [&](const NamedDetector& d) { return !mode_ || d.detector->mode() == *mode_; });
   if (!told)
     throw InputError({"--mode", 0}, "", mode,
                      "no detector of the scenario tells how far from it a drive was");

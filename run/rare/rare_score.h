@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "env/failures/detector.h"
@@ -15,7 +16,7 @@ class RareScore {
  public:
   // `mode`: a failure mode, or any_failure. Throws InputError where it is neither, or none of the
   // scenario's detectors tells how far from it a drive was.
-  RareScore(const std::string& mode, const Scenario& scenario);
+  RareScore(const std::string& mode, std::span<const NamedDetector> detectors);
 
   // Failed: by an event, of any mode where that is asked, whatever the margins say. An episode that
   // is an error or without a plan is no failure, and far from one.

@@ -14,10 +14,9 @@ bool EpisodesCanDiffer(const ScenarioFile& file, const Scenario& s) {
 bool NoiseCanDiffer(const Scenario& s) {
   const ConfigNode* generate = s.text.site.Find("generate");
   if (generate != nullptr && DrawnAtRandom(*generate)) return true;
-  if (s.agents.planner && s.agents.planner->promises().uses_seed) return true;
-  if (const PlanCommand* program = ProgramToAsk(s); program && program->uses_seed) return true;
-  if (s.spec.episode.drive != "none" && s.agents.online && s.agents.online->uses_seed())
-    return true;
+  if (s.spec.promises.uses_seed) return true;
+  if (const PlanCommand* program = ProgramToAsk(s.spec); program && program->uses_seed) return true;
+  if (s.spec.episode.drive != "none" && s.spec.draws_on_the_way) return true;
   if (s.spec.episode.drive != "physics") return false;
   return s.agents.estimator->draws() ||
          std::ranges::any_of(s.agents.sensors,

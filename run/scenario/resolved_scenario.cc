@@ -104,7 +104,8 @@ ConfigNode PlannerKeys(const Scenario& s, const fs::path& folder) {
     return WithPlugin(ConfigNode::Map(),
                       *MakePlugin(planners, s.spec.planner_name, "plan.planner"));
   };
-  const ConfigNode usual = s.agents.online ? defaults(OnlinePlanners()) : defaults(Planners());
+  const ConfigNode usual =
+      s.spec.plan_by == PlanBy::kOnline ? defaults(OnlinePlanners()) : defaults(Planners());
   std::erase_if(node.entries, [&](const auto& entry) {
     const ConfigNode* other = usual.Find(entry.first);
     return other != nullptr && WriteYaml(*other) == WriteYaml(entry.second);
@@ -209,8 +210,8 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
   if (s.world.goal &&
       stated("goal", site_varies || Vary(s, {"site.goal", "site.goal.x_m", "site.goal.y_m"})))
     root.Add("goal", Goal(*s.world.goal));
-  if (!LeadsItself(s)) root.Add("plan", Plan(s, folder, made));
-  if (AsksForRisk(s)) {
+  if (!LeadsItself(s.spec)) root.Add("plan", Plan(s, folder, made));
+  if (AsksForRisk(s.spec)) {
     ConfigNode risk =
         Named("tables", NameOr(s.spec.fmea_file, BundledTables(), kBundledTables, folder));
     risk.Add("model", ConfigNode::Scalar(s.spec.risk_model_file.empty()

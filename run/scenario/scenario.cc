@@ -408,30 +408,27 @@ Configurable* PlannerOf(const Scenario& s) {
   return s.agents.online.get();
 }
 
-const PlanCommand* ProgramToAsk(const Scenario& s) {
-  return s.spec.plan_command && s.spec.plan_file.empty() ? &*s.spec.plan_command : nullptr;
+const PlanCommand* ProgramToAsk(const ScenarioSpec& spec) {
+  return spec.plan_command && spec.plan_file.empty() ? &*spec.plan_command : nullptr;
 }
 
 std::string ProgramAnnounced(const Scenario& s) {
-  const PlanCommand* program = ProgramToAsk(s);
+  const PlanCommand* program = ProgramToAsk(s.spec);
   if (program == nullptr) return "";
   CheckProgram(*program, s.files);
   return ProgramLine(*program);
 }
 
 void RefuseProgram(const Scenario& s) {
-  if (const PlanCommand* program = ProgramToAsk(s))
+  if (const PlanCommand* program = ProgramToAsk(s.spec))
     throw InputError(program->mark, "plan.command", program->words.front(),
                      "made no plan: there is nothing to drive again, and a replay runs no program");
 }
 
-bool LeadsItself(const Scenario& s) {
-  return !s.agents.planner && !s.agents.online && !s.spec.plan_command && s.spec.plan_file.empty();
-}
+bool LeadsItself(const ScenarioSpec& spec) { return spec.plan_by == PlanBy::kNobody; }
 
-bool AsksForRisk(const Scenario& s) {
-  return s.spec.written.contains("risk") ||
-         (s.agents.planner && s.agents.planner->promises().needs_risk);
+bool AsksForRisk(const ScenarioSpec& spec) {
+  return spec.written.contains("risk") || spec.promises.needs_risk;
 }
 
 std::vector<fs::path> FilesRead(const Scenario& s) {

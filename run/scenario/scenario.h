@@ -127,7 +127,7 @@ class ScenarioFile {
 Configurable* PlannerOf(const Scenario& scenario);
 
 // The program that is yet to be asked for its plan; nullptr: none is run.
-const PlanCommand* ProgramToAsk(const Scenario& scenario);
+const PlanCommand* ProgramToAsk(const ScenarioSpec& spec);
 
 // The line to print before that program is run (ProgramLine); empty: none is. Throws as
 // CheckProgram.
@@ -138,11 +138,11 @@ std::string ProgramAnnounced(const Scenario& scenario);
 void RefuseProgram(const Scenario& scenario);
 
 // Whether its mission says where to drive, and there is no plan but its places.
-bool LeadsItself(const Scenario& scenario);
+bool LeadsItself(const ScenarioSpec& spec);
 
 // Whether its plan needs the floor's risk, or its key `risk` asks for it: of any other nothing is
 // said of risk.
-bool AsksForRisk(const Scenario& scenario);
+bool AsksForRisk(const ScenarioSpec& spec);
 
 // The scenario itself, whatever its matrix says: episode 0, or the one that it names.
 Scenario ReadScenario(const std::filesystem::path& file,

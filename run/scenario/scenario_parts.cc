@@ -209,6 +209,7 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
       throw InputError(plan->mark, "plan", "",
                        "stands beside a mission that says itself where to drive; take one of them "
                        "away");
+    s.spec.plan_by = PlanBy::kNobody;
     s.spec.planner_name = "mission";
     lines.assign(s.spec.user_plan.size(), 0);
     return lines;
@@ -216,6 +217,7 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = root.Find("plan");
   if (node && node->IsMap() && node->Find("command") != nullptr) {
     s.spec.plan_command = ReadPlanCommand(*node, s.spec.file.parent_path(), s.files);
+    s.spec.plan_by = PlanBy::kProgram;
     s.spec.planner_name = s.spec.plan_command->name;
     if (const ConfigNode* made = node->Find("made")) {
       s.spec.plan_file = NamedFile(s.spec.file.parent_path(), *made, "plan.made", s.files);
@@ -240,24 +242,32 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
     s.agents.online = MakePlugin(OnlinePlanners(), named.name, "plan.planner", named.mark);
   else
     s.agents.planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark, online);
+  s.spec.plan_by = s.agents.online ? PlanBy::kOnline : PlanBy::kPlanner;
   if (s.agents.planner && s.agents.planner->promises().visits_places)
     ReadPlacesPart(named.params, s);
   ReadParams(named.params, "plan.", *PlannerOf(s), {"planner"});
+  if (s.agents.planner) {
+    s.spec.promises = s.agents.planner->promises();
+  } else {
+    s.spec.online = s.agents.online->params();
+    s.spec.draws_on_the_way = s.agents.online->uses_seed();
+  }
   return lines;
 }
 
 // What a planner of unknown floors and the way it is driven must have in common.
 void CheckOnline(const ConfigNode& root, const Scenario& s) {
   const bool cells = s.spec.episode.drive == "cells";
-  if (cells && !s.agents.online)
+  const bool online = s.spec.plan_by == PlanBy::kOnline;
+  if (cells && !online)
     throw InputError(MarkOf(root, "drive"), "drive", "cells",
                      "is for planners of unknown floors, which `floorproof list planners` names");
-  if (!s.agents.online) return;
+  if (!online) return;
   if (!cells && s.world.robot.spec.turn_radius_m > 0)
     throw InputError(MarkOf(root, "plan"), "plan", s.spec.planner_name,
                      "plans on the way, by turns on the spot, which " + s.spec.robot_name +
                          " cannot make; take a planner of known floors");
-  const OnlineParams& asked = s.agents.online->params();
+  const OnlineParams& asked = s.spec.online;
   const double cell_m = s.world.site.map.frame.cell_m;
   const double step_m = asked.step_m.value_or(cells ? cell_m : s.world.robot.spec.tool_width_m);
   const auto mark = [&](const char* key) { return MarkOf(*root.Find("plan"), key); };
@@ -373,7 +383,7 @@ void CheckMapSize(const ConfigNode& node, const Mapper& mapper, const GridFrame&
 
 // On an unknown floor a robot goes by what it draws, and by what it meets.
 bool PlansByItsMap(const Scenario& s) {
-  return s.agents.online && s.spec.episode.drive == "physics";
+  return s.spec.plan_by == PlanBy::kOnline && s.spec.episode.drive == "physics";
 }
 
 // The mapper keeps what was met, so that a robot which reacts has one.

@@ -12,6 +12,8 @@
 
 #include "env/core/path.h"
 #include "env/scene/robot_model.h"
+#include "planners/online/online_planner.h"
+#include "planners/planner.h"
 #include "planners/risk/rate_model.h"
 #include "planners/risk/risk_map.h"
 #include "run/scenario/draws.h"
@@ -19,6 +21,15 @@
 #include "run/scenario/scenario_params.h"
 
 namespace floorproof {
+
+// Who makes the plan.
+enum class PlanBy {
+  kPlanner,  // of known floors, before the drive
+  kOnline,   // a planner of unknown floors, on the way
+  kProgram,  // of the user's
+  kFile,
+  kNobody,  // the mission says where to drive, or whoever steps the episode
+};
 
 struct ScenarioSpec {
   std::filesystem::path file;
@@ -33,7 +44,10 @@ struct ScenarioSpec {
   RobotChanges robot_changes;
   std::filesystem::path robot_file;
 
-  // A planner, a program or a file makes the plan; or the mission says where to drive.
+  PlanBy plan_by = PlanBy::kFile;
+  PlannerPromises promises;                 // of a planner of known floors
+  OnlineParams online;                      // of one of unknown floors
+  bool draws_on_the_way = false;            // that one uses its seed
   std::string planner_name;                 // empty: plan_file
   std::optional<PlanCommand> plan_command;  // plan_file is what it made once, if it has
   std::filesystem::path plan_file;

@@ -67,8 +67,8 @@ void WarnOfLimits(const Scenario& s, std::vector<std::string>& lines) {
 // A drive over places is no coverage: judged by it, each one fails.
 void WarnOfCoverage(const Scenario& s, std::vector<std::string>& lines) {
   const double least = s.spec.episode.min_coverage;
-  if (least > 0 && s.agents.planner &&
-      s.agents.planner->promises().covers == PlannerPromises::Covers::kNothing)
+  if (least > 0 && s.spec.plan_by == PlanBy::kPlanner &&
+      s.spec.promises.covers == PlannerPromises::Covers::kNothing)
     lines.push_back(
         fmt::format("warning: success.min_coverage is {}, and the planner {} goes to "
                     "places and covers no floor: 0 is what judges its drives",
@@ -77,7 +77,7 @@ void WarnOfCoverage(const Scenario& s, std::vector<std::string>& lines) {
 
 void WarnOfDirt(const Scenario& s, std::vector<std::string>& lines) {
   if (!s.world.dirt) return;
-  if (!(s.agents.planner && s.agents.planner->promises().visits_places))
+  if (!s.spec.promises.visits_places)
     lines.push_back("warning: `dirt` has no effect: this plan takes no samples");
   else if (s.spec.episode.drive != "physics")
     lines.push_back("warning: `dirt` has no effect: nothing is driven");

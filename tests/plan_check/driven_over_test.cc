@@ -29,7 +29,7 @@ class DrivenOverTest : public ScenarioTest {
     return Read(RoomScenario(hazards));
   }
   static std::vector<DrivenOver> Find(const Scenario& scenario) {
-    return FindDrivenOver(scenario, MakePlan(scenario));
+    return FindDrivenOver(scenario.world, MakePlan(scenario));
   }
 };
 
@@ -58,7 +58,7 @@ TEST_F(DrivenOverTest, HoweverItLies) {
                fmt::format("{},{}\n{},{}\n", from.x(), from.y(), to.x(), to.y()));
       PlanResult plan = MakePlan(scenario);
       plan.path.erase(plan.path.begin());
-      const auto dut = FindDrivenOver(scenario, plan);
+      const auto dut = FindDrivenOver(scenario.world, plan);
       ASSERT_THAT(dut, SizeIs(over)) << yaw_deg;
       if (!over) continue;
       EXPECT_EQ(dut.front().times, 1) << yaw_deg;
@@ -128,7 +128,7 @@ TEST_F(DrivenOverTest, LinesAndJsonSayWhatThePlannerIsNotToldOf) {
               HasSubstr("leads into 'plank' (step, 40 mm), which the planner is not told of, 2 "
                         "times\ndrives over 'cover' (cable cover, 20 mm) 2 times\n"));
   EXPECT_THAT(text, Not(HasSubstr("warning")));
-  const auto json = PlanCheckJson(scenario, check);
+  const auto json = PlanCheckJson(scenario.world, check);
   ASSERT_EQ(json["driven_over"].size(), 2u);
   EXPECT_EQ(json["driven_over"][0]["known"], false);
   EXPECT_EQ(json["driven_over"][1]["times"], 2);

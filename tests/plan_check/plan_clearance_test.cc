@@ -58,7 +58,7 @@ class PlanClearanceTest : public ScenarioTest {
     return Read(RoomScenario(hazards, more));
   }
   static PlanClearance Check(const Scenario& scenario) {
-    return CheckClearance(scenario, MakePlan(scenario));
+    return CheckClearance(scenario.world, MakePlan(scenario));
   }
 };
 
@@ -280,7 +280,7 @@ TEST_F(PlanClearanceTest, ACrossingIsSaidInWordsOfItsOwn) {
     const PlanCheck check = CheckPlan(scenario, plan);
     text.clear();
     for (const std::string& line : PlanLines(scenario, plan, check)) text += line + "\n";
-    json = PlanCheckJson(scenario, check).dump();
+    json = PlanCheckJson(scenario.world, check).dump();
   };
   std::string text, json;
   said(0.015, text, json);

@@ -42,7 +42,7 @@ class UncoveredTest : public ScenarioTest {
   static UncoveredFloor Find(const Scenario& s) {
     const PlanResult plan = MakePlan(s);
     EXPECT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
-    return FindUncovered(s, plan,
+    return FindUncovered(s.world, plan,
                          ComputeSweepArea(KnownFloor(s.world), plan.clear, plan.tool,
                                           s.world.robot.spec.step_m, s.world.start.p()));
   }

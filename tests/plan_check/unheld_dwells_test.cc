@@ -27,7 +27,7 @@ class UnheldDwells : public ScenarioTest {
       w.p_W = {x, 2.5};
       w.dwell_s = dwell_s;
     }
-    const auto dwell = FindUnheldDwell(s, plan);
+    const auto dwell = FindUnheldDwell(s.world, plan);
     if (dwell) {
       EXPECT_EQ(dwell->p_W.x(), 4);
       EXPECT_GT(dwell->pulls_n, dwell->holds_n);

@@ -37,7 +37,7 @@ class DirtPictures : public OwnFolderTest {
     Scenario s = ReadScenario(folder_ / "s.yaml");
     const DriveResult result = DriveAndFilm(s, folder_ / "out", {}, {.quiet = true});
     EXPECT_FALSE(result.not_written);
-    if (result.record.audit) said_ = AuditText(s, result.plan, *result.record.audit);
+    if (result.record.audit) said_ = AuditText(s.world, result.plan, *result.record.audit);
     return result.record;
   }
   bool Left(const char* name) const { return fs::exists(folder_ / "out" / name); }

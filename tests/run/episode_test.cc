@@ -122,8 +122,8 @@ TEST_F(EpisodeTest, APlansTasksReachTheOneWhoDrivesIt) {
   Scenario scenario = Read(RoomScenario(""));
   scenario.spec.user_plan[1].task = WaypointTask{.id = 8};
   EXPECT_EQ(MakePlan(scenario).path[1].task, scenario.spec.user_plan[1].task);
-  scenario.agents.planner = std::make_unique<Errand>();
-  const PlanResult plan = MakePlan(scenario);
+  GuestPlugins<Planner>::Add(Planners(), "errand", [] { return std::make_unique<Errand>(); });
+  const PlanResult plan = MakePlan(Read(RoomScenario(""), {{"plan", "{planner: errand}"}}));
   EXPECT_EQ(plan.path[1].task, WaypointTask{.id = 3});
   EXPECT_FALSE(plan.path[0].task || plan.path[2].task);
 }

@@ -209,7 +209,7 @@ TEST_F(ExternalPlanner, WorksInTheScenariosFolderAndMayBeAnInterpretersScript) {
 TEST_F(ExternalPlanner, ARecordedPlanStandsInForTheProgram) {
   const std::string random = "printf 'x_m,y_m\\n1.5,2.5\\n3,2.%d\\n' $$ > \"$1\"/plan.csv\n";
   const Scenario scenario = Read(Asks(kLogs + random));
-  ASSERT_NE(ProgramToAsk(scenario), nullptr);
+  ASSERT_NE(ProgramToAsk(scenario.spec), nullptr);
   const PlanResult plan = MakePlan(scenario);
   ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
   WritePlanFiles(scenario, plan, folder_ / "out");
@@ -217,7 +217,7 @@ TEST_F(ExternalPlanner, ARecordedPlanStandsInForTheProgram) {
   fs::remove(folder_ / "plan.sh");
   const fs::path resolved = folder_ / "moved" / "scenario.resolved.yaml";
   const Scenario again = ReadScenario(resolved);
-  EXPECT_EQ(ProgramToAsk(again), nullptr);
+  EXPECT_EQ(ProgramToAsk(again.spec), nullptr);
   EXPECT_EQ(PlanCsv(MakePlan(again).path), PlanCsv(plan.path));
   EXPECT_EQ(again.spec.planner_name, "plan.sh") << "who made it is still said";
   EXPECT_EQ(ResolvedScenario(again, folder_ / "moved"), Slurp(resolved));
@@ -236,7 +236,7 @@ TEST_F(ExternalPlanner, WithoutAPlanTheSettingsNameTheProgram) {
   const Scenario scenario = Read(Asks("exit 1", ", timeout_s: 5, uses_seed: true"));
   WritePlanFiles(scenario, MakePlan(scenario), folder_ / "out");
   const Scenario again = ReadScenario(folder_ / "out" / "scenario.resolved.yaml", {}, Trust::kFull);
-  ASSERT_NE(ProgramToAsk(again), nullptr);
+  ASSERT_NE(ProgramToAsk(again.spec), nullptr);
   EXPECT_EQ(again.spec.plan_command->timeout_s, 5);
   EXPECT_TRUE(again.spec.plan_command->uses_seed);
   EXPECT_TRUE(fs::equivalent(again.spec.plan_command->folder, folder_))
@@ -247,8 +247,8 @@ TEST_F(ExternalPlanner, WithoutAPlanTheSettingsNameTheProgram) {
 TEST_F(ExternalPlanner, SettingOneTakesAnotherWhosePlanAway) {
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n3,2.5\n");
   const std::string asks = Asks(kSaysPlan), drives = RoomScenario("");
-  EXPECT_NE(ProgramToAsk(Read(drives, {{"plan.command", "[./plan.sh]"}})), nullptr);
-  EXPECT_EQ(ProgramToAsk(Read(asks, {{"plan.file", "plan.csv"}})), nullptr);
+  EXPECT_NE(ProgramToAsk(Read(drives, {{"plan.command", "[./plan.sh]"}}).spec), nullptr);
+  EXPECT_EQ(ProgramToAsk(Read(asks, {{"plan.file", "plan.csv"}}).spec), nullptr);
   EXPECT_EQ(Read(asks, {{"plan.planner", "spiral"}}).spec.planner_name, "spiral");
   EXPECT_EQ(Read(asks, {{"plan.timeout_s", "3"}}).spec.plan_command->timeout_s, 3);
 }
@@ -273,7 +273,7 @@ TEST_F(ExternalPlanner, ItsSeedIsTheEpisodesOwnWhereItUsesOne) {
       draws(Save("d.yaml", Asks(kSaysPlan, ", uses_seed: true", "seed: 7\n")));
   const auto seed = [](const ScenarioFile& file, std::uint64_t episode) {
     const Scenario s = file.Read(episode);
-    return ProgramSeed(s, *s.spec.plan_command);
+    return ProgramSeed(s.spec, *s.spec.plan_command);
   };
   EXPECT_EQ(seed(plain, 0), 7u);
   EXPECT_EQ(seed(plain, 1), 7u);

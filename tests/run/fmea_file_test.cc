@@ -342,7 +342,7 @@ TEST_F(FmeaFile, RiskIsSpokenOfWhereItIsAskedFor) {
     const Execution execution = Execute(scenario);
     WritePlanFiles(scenario, execution.plan, folder_);
     const bool file = std::filesystem::exists(folder_ / "risk.csv");
-    EXPECT_EQ(AsksForRisk(scenario), file);
+    EXPECT_EQ(AsksForRisk(scenario.spec), file);
     EXPECT_EQ(ReadJson("plan.json").contains("cumulative_risk"), file);
     EXPECT_EQ(execution.record.metrics.cumulative_risk.has_value(), file);
     EXPECT_EQ(ResolvedScenario(scenario, folder_).find("\nrisk:") != std::string::npos, file);

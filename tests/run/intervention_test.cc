@@ -308,7 +308,7 @@ TEST_F(AssistTest, WithNoPlaceAheadItEndsThereAndSaysSo) {
 // One that thinks it is elsewhere may fail beside its last waypoint.
 TEST_F(AssistTest, PastTheLastWaypointNobodyCanHelp) {
   const Scenario scenario = Read(RoomScenario("", kAssist));
-  Interventions dut(scenario);
+  Interventions dut(scenario.spec.episode, scenario.world);
   Sample failed;
   failed.p_WB = {6, 3.2, 0};
   failed.battery_v = 12;

@@ -15,7 +15,7 @@ class PlaceAheadTest : public ScenarioTest {
   // The waypoint at which hTetro, 0.5 m wide, is set down in the room with this.
   std::optional<SetDownPlace> Place(const std::string& hazards, const Path& path,
                                     const std::string& robot = "htetro") const {
-    return PlaceAhead(Read(RoomScenario(hazards), {{"robot", robot}}), path, 1);
+    return PlaceAhead(Read(RoomScenario(hazards), {{"robot", robot}}).world, path, 1);
   }
   static Waypoint At(double x_m, double y_m, std::optional<double> yaw_rad = {}) {
     Waypoint waypoint;
@@ -76,7 +76,7 @@ TEST_F(PlaceAheadTest, NotWhereNoFloorLeadsFromTheStart) {
         "scenario: 1\nrobot: beluga\nplan: {file: plan.csv}\nsite: {site: 1, "
         "start: {x_m: 1.5, y_m: 1.5, yaw_deg: 0}, grid: {cell_m: 1, rows: \"#######\\n#..#" +
         std::string("..#\\n#..") + middle + "..#\\n#######\"}}\n");
-    return PlaceAhead(s, {At(1.5, 1.5), At(4.5, 1.5), At(2.5, 1.5)}, 1)->waypoint;
+    return PlaceAhead(s.world, {At(1.5, 1.5), At(4.5, 1.5), At(2.5, 1.5)}, 1)->waypoint;
   };
   EXPECT_EQ(waypoint("."), 1u);
   EXPECT_EQ(waypoint("#"), 2u);

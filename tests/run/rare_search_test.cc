@@ -115,8 +115,8 @@ TEST_F(RareTest, AModeThatNoDetectorMeasuresIsRefused) {
   Scenario scenario = File().Read(std::nullopt);
   std::erase_if(scenario.agents.detectors,
                 [](const NamedDetector& d) { return d.name == "stuck"; });
-  EXPECT_NO_THROW(RareScore("veer_off", scenario));
-  EXPECT_THROW(RareScore("stuck", scenario), InputError);
+  EXPECT_NO_THROW(RareScore("veer_off", scenario.agents.detectors));
+  EXPECT_THROW(RareScore("stuck", scenario.agents.detectors), InputError);
 }
 
 // Ordinary rows: the mode's own margin leads, ties go by the way lost.
@@ -130,7 +130,9 @@ TEST_F(RareTest, TheScoreIsTheModesMargin) {
   set(&Metrics::roll_over_margin, 0.4);
   set(&Metrics::bounce_back_margin, 0.9);
   set(&Metrics::way_lost_m, 0.02);
-  const auto of = [&](const char* mode) { return RareScore(mode, scenario).Of(row); };
+  const auto of = [&](const char* mode) {
+    return RareScore(mode, scenario.agents.detectors).Of(row);
+  };
   EXPECT_EQ(of("veer_off").score, 0.7);
   EXPECT_EQ(of("stuck").score, 1);
   EXPECT_EQ(of("any_failure").score, 0.4);
@@ -176,7 +178,7 @@ class RareTrialsTest : public RareTest {
         : file(scenario),
           base(file.Read(std::nullopt)),
           coordinates(file, base),
-          score("veer_off", base),
+          score("veer_off", base.agents.detectors),
           maker(file),
           store(fs::exists(db) ? Reopened(db) : CampaignStore::Create(db, DescribeCampaign(file))),
           trials(maker, coordinates, score, store, jobs,

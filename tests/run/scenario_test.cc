@@ -120,7 +120,7 @@ TEST_F(ScenarioFile, ItsVariantsMayHaveOtherPlannersOnceItIsResolved) {
   ASSERT_EQ(again.variants().size(), 2u);
   for (const Variant& variant : again.variants()) {
     const Scenario dut = again.Read(0, variant);
-    EXPECT_EQ(dut.agents.online->params().radius_m, 2.5) << dut.spec.planner_name;
+    EXPECT_EQ(dut.spec.online.radius_m, 2.5) << dut.spec.planner_name;
   }
   EXPECT_EQ(ResolvedScenario(again.Read(std::nullopt), folder_), once);
 }

@@ -196,7 +196,8 @@ TEST_F(StartTest, HelpSetsItDownOnTheFloorThatIsThere) {
   path[2].p_W = {4, 2.5};
   for (const char* robot : {"beluga", "htetro"})
     for (const double height_m : {0.15, -0.15}) {
-      const auto dut = PlaceAhead(Read(RoomScenario(Level(height_m)), {{"robot", robot}}), path, 1);
+      const auto dut =
+          PlaceAhead(Read(RoomScenario(Level(height_m)), {{"robot", robot}}).world, path, 1);
       ASSERT_TRUE(dut) << robot << " " << height_m;
       EXPECT_EQ(dut->waypoint, 2u) << robot << " " << height_m;
     }

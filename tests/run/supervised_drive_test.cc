@@ -200,7 +200,7 @@ TEST_F(SupervisedDrive, AMissionOfGoTosIsDrivenWithoutAPlan) {
   text.replace(text.find("plan: {file: plan.csv}\n"), 23, "");
   for (const char* robot : {"beluga", "htetro"}) {
     Scenario scenario = Read(text, {{"robot", robot}});
-    EXPECT_TRUE(LeadsItself(scenario));
+    EXPECT_TRUE(LeadsItself(scenario.spec));
     EXPECT_EQ(scenario.spec.user_plan.size(), 2u);
     const EpisodeRecord dut = Drive(std::move(scenario));
     EXPECT_EQ(dut.outcome, Outcome::kSuccess) << robot << dut.message;

@@ -79,7 +79,8 @@ Scenario SuiteDrive::Read(const SuiteRun& run) const {
       Text(run, drive, false), fs::absolute(name_ + ".yaml"), options_.overrides);
   Scenario scenario = file.Read(file.episode());
   if (drive.plan.empty()) return scenario;
-  scenario.agents.planner.reset();
+  scenario.spec.plan_by = PlanBy::kFile;
+  scenario.spec.promises = {};
   scenario.spec.planner_name.clear();
   scenario.spec.user_plan = std::move(drive.plan);
   scenario.spec.plan_file = kPlanFile;
