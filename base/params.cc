@@ -104,62 +104,47 @@ class Reader : public ParamVisitor {
   std::vector<std::string> known_;
 };
 
-class Writer : public ParamVisitor {
+// Calls `each` with the full key and a reference to the value of each parameter, of whatever type.
+template <class Each>
+class EachParam : public ParamVisitor {
  public:
-  explicit Writer(ConfigNode& node) : node_(node) { node_.kind = ConfigNode::Kind::kMap; }
+  EachParam(std::string path, Each& each) : path_(std::move(path)), each_(each) {}
 
   void operator()(const char* name, double& value, const Bounds&, const char*) override {
-    node_.Add(name, ConfigNode::Scalar(FormatDouble(value)));
+    each_(path_ + name, value);
   }
   void operator()(const char* name, int& value, const Bounds&, const char*) override {
-    node_.Add(name, ConfigNode::Scalar(std::to_string(value)));
+    each_(path_ + name, value);
   }
   void operator()(const char* name, bool& value, const char*) override {
-    node_.Add(name, ConfigNode::Scalar(value ? "true" : "false"));
+    each_(path_ + name, value);
   }
   void operator()(const char* name, std::string& value, const std::vector<std::string>&,
                   const char*) override {
-    node_.Add(name, ConfigNode::Scalar(value, true));
+    each_(path_ + name, value);
   }
   void operator()(const char* name, std::optional<double>& value, const Bounds&,
                   const char*) override {
-    node_.Add(name, ConfigNode::Scalar(value ? FormatDouble(*value) : "none"));
+    each_(path_ + name, value);
   }
   void Group(const char* name, const std::function<void(ParamVisitor&)>& visit,
              const char*) override {
-    WriteParams(visit, node_.Add(name, ConfigNode::Map()));
-  }
-
- private:
-  ConfigNode& node_;
-};
-
-class Numbers : public ParamVisitor {
- public:
-  using Found = std::vector<std::pair<std::string, double>>;
-  Numbers(Found& found, std::string path) : found_(found), path_(std::move(path)) {}
-
-  void operator()(const char* name, double& value, const Bounds&, const char*) override {
-    found_.emplace_back(path_ + name, value);
-  }
-  void operator()(const char*, int&, const Bounds&, const char*) override {}
-  void operator()(const char*, bool&, const char*) override {}
-  void operator()(const char*, std::string&, const std::vector<std::string>&,
-                  const char*) override {}
-  void operator()(const char* name, std::optional<double>& value, const Bounds&,
-                  const char*) override {
-    if (value) found_.emplace_back(path_ + name, *value);
-  }
-  void Group(const char* name, const std::function<void(ParamVisitor&)>& visit,
-             const char*) override {
-    Numbers inner(found_, path_ + name + ".");
+    EachParam inner(path_ + name + ".", each_);
     visit(inner);
   }
 
  private:
-  Found& found_;
   std::string path_;
+  Each& each_;
 };
+
+ConfigNode Written(double value) { return ConfigNode::Scalar(FormatDouble(value)); }
+ConfigNode Written(int value) { return ConfigNode::Scalar(std::to_string(value)); }
+ConfigNode Written(bool value) { return ConfigNode::Scalar(value ? "true" : "false"); }
+ConfigNode Written(const std::string& value) { return ConfigNode::Scalar(value, true); }
+ConfigNode Written(const std::optional<double>& value) {
+  return ConfigNode::Scalar(value ? FormatDouble(*value) : "none");
+}
 
 class Documenter : public ParamVisitor {
  public:
@@ -232,20 +217,55 @@ void ReadParams(const ConfigNode& node, const std::string& path, Configurable& t
       node, path, [&](ParamVisitor& v) { target.Visit(v); }, also_allowed);
 }
 
-void WriteParams(const std::function<void(ParamVisitor&)>& visit, ConfigNode& node) {
-  Writer writer(node);
-  visit(writer);
+ParamValues ValuesOf(const std::function<void(ParamVisitor&)>& visit) {
+  ParamValues values;
+  auto keep = [&values](std::string key, const auto& value) {
+    values.emplace_back(std::move(key), value);
+  };
+  EachParam visitor("", keep);
+  visit(visitor);
+  return values;
 }
 
-void WriteParams(Configurable& source, ConfigNode& node) {
-  WriteParams([&](ParamVisitor& v) { source.Visit(v); }, node);
+ParamValues ValuesOf(Configurable& source) {
+  return ValuesOf([&](ParamVisitor& v) { source.Visit(v); });
 }
+
+void SetValues(const ParamValues& values, Configurable& target) {
+  auto set = [&values]<class T>(const std::string& key, T& value) {
+    const auto found = std::ranges::find(values, key, &ParamValues::value_type::first);
+    if (found == values.end()) return;
+    if (const T* given = std::get_if<T>(&found->second)) value = *given;
+  };
+  EachParam visitor("", set);
+  target.Visit(visitor);
+}
+
+void WriteValues(const ParamValues& values, ConfigNode& node) {
+  node.kind = ConfigNode::Kind::kMap;
+  for (const auto& [key, value] : values)
+    node.SetPath(key, std::visit([](const auto& v) { return Written(v); }, value));
+}
+
+ConfigNode WithValues(ConfigNode node, const ParamValues& values) {
+  WriteValues(values, node);
+  return node;
+}
+
+void WriteParams(const std::function<void(ParamVisitor&)>& visit, ConfigNode& node) {
+  WriteValues(ValuesOf(visit), node);
+}
+
+void WriteParams(Configurable& source, ConfigNode& node) { WriteValues(ValuesOf(source), node); }
 
 std::vector<std::pair<std::string, double>> NumericParams(Configurable& source) {
-  Numbers::Found found;
-  Numbers numbers(found, "");
-  source.Visit(numbers);
-  return found;
+  std::vector<std::pair<std::string, double>> numbers;
+  for (const auto& [key, value] : ValuesOf(source)) {
+    if (const double* number = std::get_if<double>(&value)) numbers.emplace_back(key, *number);
+    if (const auto* number = std::get_if<std::optional<double>>(&value); number && *number)
+      numbers.emplace_back(key, **number);
+  }
+  return numbers;
 }
 
 std::vector<ParamDoc> DocumentParams(Configurable& source) {

@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/config.h"
@@ -69,10 +70,22 @@ void ReadParams(const ConfigNode& node, const std::string& path, Configurable& t
 void ReadParams(const ConfigNode& node, const std::string& path,
                 const std::function<void(ParamVisitor&)>& visit,
                 const std::vector<std::string>& also_allowed = {});
+// Parameters as data, in the order in which they are visited: keys, those of groups as `group.key`,
+// with their values.
+using ParamValue = std::variant<double, int, bool, std::string, std::optional<double>>;
+using ParamValues = std::vector<std::pair<std::string, ParamValue>>;
+ParamValues ValuesOf(Configurable& source);
+ParamValues ValuesOf(const std::function<void(ParamVisitor&)>& visit);
+// Sets each parameter of which there is a value of its type; others stay as they are.
+void SetValues(const ParamValues& values, Configurable& target);
+// Adds every one of them to the map `node`.
+void WriteValues(const ParamValues& values, ConfigNode& node);
 // Adds every parameter with its value to the map `node`.
 void WriteParams(Configurable& source, ConfigNode& node);
 void WriteParams(const std::function<void(ParamVisitor&)>& visit, ConfigNode& node);
-// The node with them added. Takes a copy: who visits parameters may change them.
+// The node with them added.
+ConfigNode WithValues(ConfigNode node, const ParamValues& values);
+// The same. Takes a copy: who visits parameters may change them.
 template <class Params>
 ConfigNode WithParams(ConfigNode node, Params params) {
   WriteParams([&](ParamVisitor& v) { params.Visit(v); }, node);

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
+#include "base/params.h"
 
 namespace floorproof {
 
@@ -92,6 +92,22 @@ std::unique_ptr<T> MakePlugin(std::span<const PluginEntry<T>> table, std::string
   auto names = PluginNames(table);
   names.insert(names.end(), others.begin(), others.end());
   throw InputError(mark, key, name, "unknown" + DidYouMeanOneOf(name, names));
+}
+
+// A plug-in as data: unlike the plug-in, which has a state, it can be copied, kept and compared.
+struct PluginSpec {
+  std::string name;
+  ParamValues params;
+  bool operator==(const PluginSpec&) const = default;
+};
+
+// Makes the plug-in. Throws InputError where the table has none of that name.
+template <class T>
+std::unique_ptr<T> MakePlugin(std::span<const PluginEntry<T>> table, const PluginSpec& spec,
+                              std::string_view key) {
+  auto plugin = MakePlugin(table, spec.name, key);
+  SetValues(spec.params, *plugin);
+  return plugin;
 }
 
 }  // namespace floorproof

@@ -105,7 +105,8 @@ int Main(int argc, char** argv) {
   const auto steps_a_control =
       static_cast<int>(std::lround(1 / (s.world.physics.timestep_s * s.spec.episode.control_hz)));
   Notes notes;
-  RunEpisode(s, scene, plan, &notes);
+  Agents agents = MakeAgents(s.spec);
+  RunEpisode(s, agents, scene, plan, &notes);
 
   // Taken by turns, so that a machine that slows down slows both.
   std::vector<double> speed, outside, scaling;

@@ -30,7 +30,8 @@ int Main(int argc, char** argv) {
   std::vector<double> ratios;
   for (int round = 0; round < rounds; ++round) {
     Notes notes;
-    const EpisodeRecord record = RunEpisode(s, scene, plan, &notes);
+    Agents agents = MakeAgents(s.spec);
+    const EpisodeRecord record = RunEpisode(s, agents, scene, plan, &notes);
     const double bare_s = BareLoop(whole.model.get(), notes, steps_a_control);
     const auto steps = static_cast<double>(record.steps);
     ratios.push_back(bare_s / notes.seconds());

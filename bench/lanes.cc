@@ -19,6 +19,7 @@
 #include "run/episode/make_navigator.h"
 #include "run/episode/make_plan.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/agents.h"
 #include "run/scenario/scenario.h"
 
 namespace floorproof {
@@ -95,16 +96,17 @@ struct Found {
   std::vector<double> step_s;
 };
 
-Found Drive(Scenario& s) {
+Found Drive(const Scenario& s) {
   Found found;
-  s.agents.online = std::make_unique<Timed>(std::move(s.agents.online), found.step_s);
+  Agents agents = MakeAgents(s.spec);
+  Timed online(std::move(agents.online), found.step_s);
   const RobotSpec& robot = s.world.robot.spec;
   const HazardMap known = KnownFloor(s.world), truth = TrueFloor(s.world);
   const SweepArea area =
       ComputeSweepArea(truth, robot.clear, robot.tool, robot.step_m, s.world.start.p());
   CoverageMeter meter(area, robot.tool);
-  const auto navigator = MakeNavigator(s, {}, known);
-  Mapper mapper = *s.agents.mapper;
+  const auto navigator = MakeNavigator(s.spec, s.world, &online, {}, known);
+  Mapper mapper = *agents.mapper;
   mapper.Start(known.frame, robot, true);
   GridLidar lidar(truth, robot.step_m);
   const ClearanceField gaps = ComputeClearance(truth, robot.step_m);
@@ -145,7 +147,7 @@ Found Drive(Scenario& s) {
     if (at_end) segment = path.size() < 2 ? 0 : path.size() - 2;
   }
   found.coverage = meter.coverage();
-  for (const auto& [name, value] : s.agents.online->figures())
+  for (const auto& [name, value] : online.figures())
     if (name == "dead_ends") found.dead_ends = value;
   return found;
 }

@@ -33,13 +33,14 @@ int Main(int argc, char** argv) {
     const auto equals = set.find('=');
     overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
   }
-  Scenario s = ReadScenario(argv[1], overrides);
+  const Scenario s = ReadScenario(argv[1], overrides);
   const int periods = std::atoi(argv[2]);
-  s.agents.tracker =
-      std::make_unique<Circling>(BodyTwist{std::atof(argv[3]), 0, std::atof(argv[4])});
+  Agents agents = MakeAgents(s.spec);
+  agents.tracker = std::make_unique<Circling>(BodyTwist{std::atof(argv[3]), 0, std::atof(argv[4])});
   const PlanResult plan = MakePlan(s);
   const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
-  SteppedEpisode episode(s, scene, plan, std::make_unique<FreeNavigator>(s.world.start));
+  SteppedEpisode episode(s, std::move(agents), scene, plan,
+                         std::make_unique<FreeNavigator>(s.world.start));
   const double begin_s = CpuSeconds();
   for (int i = 0; i < periods; ++i)
     if (const auto ended = episode.Advance()) {

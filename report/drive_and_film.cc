@@ -37,7 +37,8 @@ double Since(Clock::time_point start) {
 // needs.
 class Witness : public EpisodeObserver {
  public:
-  Witness(Scenario& s, ResultFolder& folder, const DriveOptions& options, const Console& console)
+  Witness(const Scenario& s, ResultFolder& folder, const DriveOptions& options,
+          const Console& console)
       : s_(s),
         folder_(folder),
         options_(options),
@@ -81,7 +82,7 @@ class Witness : public EpisodeObserver {
     if (!plan.message.empty()) console_.Say(plan.message);
     if (const std::string line = UnheldDwellLine(s_.world, plan); !line.empty()) console_.Say(line);
     // A planner keeps clear of what it knows; a file or a program may lead anywhere.
-    if (PlannerOf(s_) != nullptr) return;
+    if (IsPlanned(s_.spec)) return;
     const PlanClearance clearance = CheckClearance(s_.world, plan);
     if (const std::string conflicts = ConflictsLine(clearance); !conflicts.empty())
       console_.Say(conflicts + ", see `floorproof plan`");
@@ -118,7 +119,7 @@ class Witness : public EpisodeObserver {
     begin_ = Clock::now();
   }
 
-  Scenario& s_;
+  const Scenario& s_;
   ResultFolder& folder_;
   const DriveOptions& options_;
   const Console& console_;
@@ -131,7 +132,7 @@ class Witness : public EpisodeObserver {
 
 }  // namespace
 
-DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
+DriveResult DriveAndFilm(const Scenario& s, const std::filesystem::path& folder,
                          const DriveOptions& options, const Console& console) {
   ResultFolder out(folder, options.write_records ? EpisodeResults() : FilmResults(), InputsOf(s));
   if (!options.write_records) out.Begin();

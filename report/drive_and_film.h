@@ -37,7 +37,7 @@ struct DriveResult {
 // says a line at each stage. Interrupted, it writes what was driven, says what is there, and throws
 // Interruption. Pictures wait for the drawing of other threads (media/drawing_lock.h), the drive
 // does not.
-DriveResult DriveAndFilm(Scenario& scenario, const std::filesystem::path& folder,
+DriveResult DriveAndFilm(const Scenario& scenario, const std::filesystem::path& folder,
                          const DriveOptions& options, const Console& console);
 
 }  // namespace floorproof

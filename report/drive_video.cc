@@ -134,7 +134,7 @@ DriveScript::DriveScript(const Scenario& s, const Scene& scene, const PlanResult
                              fmt::format("at the waypoint x {:.2f} m, y {:.2f} m;  t {:.1f} s",
                                          help.to_W.x(), help.to_W.y(), help.t_s)}});
   if (record.events.empty() || !record.interventions.empty()) film.closing = ClosingBanner(record);
-  if (s.agents.safety) film.timeline = SafetyTimeline(s, record);
+  if (s.spec.safety) film.timeline = SafetyTimeline(s, record);
   if (s.spec.plan_by == PlanBy::kOnline) {
     film.window_m = s.spec.online.radius_m;
     film.swept_again = SweptAgainPatches(record, s.world.robot.spec);

@@ -123,7 +123,7 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
           WriteTapes(s.world, plan, *record.audit, folder / "plot_tapes.png");
       },
       [&] {
-        if (s.agents.safety && record.steps > 0)
+        if (s.spec.safety && record.steps > 0)
           WriteSafetyTimeline(s, record, folder / "plot_safety.png");
       },
       [&] {  // an ideal robot has none

@@ -37,8 +37,8 @@ RunRecord::RunRecord(const fs::path& folder)
     const Scenario scenario = ReadScenario(settings, {});
     map_ = scenario.world.site.map;
     subject_ = SubjectOf(scenario, {});
-    estimates_ = scenario.spec.estimator_name != "truth";
-    if (scenario.agents.safety) mission_ = scenario.agents.safety->mission.nodes[0].name;
+    estimates_ = scenario.spec.estimator.name != "truth";
+    if (scenario.spec.safety) mission_ = scenario.spec.safety->mission.nodes[0].name;
   } catch (const InputError& e) {
     why_no_map_ = e.what();
   }

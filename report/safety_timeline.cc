@@ -113,7 +113,7 @@ Timeline SafetyTimeline(const Scenario& s, const EpisodeRecord& record) {
     if (row == timeline.rows.end()) row = timeline.rows.insert(row, {name, {}, false});
     row->spans.push_back({alarm.t_s, alarm.until_s.value_or(end_s), kPurple, alarm.wheel});
   }
-  const std::string& mission = s.agents.safety->mission.nodes[0].name;
+  const std::string& mission = s.spec.safety->mission.nodes[0].name;
   std::vector<std::pair<double, DecisionState>> machine = {{0, DecisionState::kNormal}};
   std::vector<std::pair<double, SafetyLevel>> level = {{0, SafetyLevel::kHigh}};
   TimelineCurve curve;
@@ -132,7 +132,7 @@ Timeline SafetyTimeline(const Scenario& s, const EpisodeRecord& record) {
     adds_up |= row.sum > row.safety_state;
     curve.most = std::max({curve.most, row.safety_state, row.sum});
   }
-  const LevelLimits& limits = s.agents.safety->mission.levels;
+  const LevelLimits& limits = s.spec.safety->mission.levels;
   curve.levels = {{limits.high, ""},
                   {limits.medium, "weak above"},
                   {limits.weak, "serious above"},

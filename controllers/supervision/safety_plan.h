@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "controllers/monitors/monitor.h"
+#include "base/registry.h"
 #include "controllers/safety/mission.h"
 #include "controllers/supervision/robot_primitive.h"
 
@@ -24,7 +24,7 @@ struct ReactionParams {
 
 struct SafetyPlan {
   Mission mission;
-  std::vector<NamedMonitor> monitors;  // those that the mission names and the robot can have
+  std::vector<PluginSpec> monitors;  // those that the mission names and the robot can have
   ReactionParams reaction;
   bool helped = false;  // somebody comes when it hands over
 };

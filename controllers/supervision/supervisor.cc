@@ -28,23 +28,31 @@ std::vector<std::string> PathsOf(const Mission& mission) {
   return paths;
 }
 
+std::vector<NamedMonitor> MonitorsAsNamed(const SafetyPlan& plan) {
+  std::vector<NamedMonitor> monitors;
+  for (const PluginSpec& spec : plan.monitors)
+    monitors.push_back({spec.name, MakePlugin(Monitors(), spec, "monitors")});
+  return monitors;
+}
+
 }  // namespace
 
 Supervisor::Supervisor(const SafetyPlan& plan, const RobotSpec& robot, const HazardMap& known)
     : plan_(plan),
+      monitors_(MonitorsAsNamed(plan)),
       robot_(robot),
       known_(known),
       comes_to_rest_s_(ComesToRest_s(robot)),
       wheels_(robot),
       drive_(MakePlugin(Drives(), robot.drive, "drive")),
-      board_{.now = nullptr, .monitors = plan.monitors, .wheels = &wheels_, .wish = {}},
+      board_{.now = nullptr, .monitors = monitors_, .wheels = &wheels_, .wish = {}},
       run_(plan.mission,
            [&](const MissionNode& node) {
              std::vector<std::size_t> monitors;
              for (const std::string& name : MonitorsOf(node)) {
-               const auto found = std::ranges::find(plan.monitors, name, &NamedMonitor::name);
-               if (found != plan.monitors.end())
-                 monitors.push_back(static_cast<std::size_t>(found - plan.monitors.begin()));
+               const auto found = std::ranges::find(monitors_, name, &NamedMonitor::name);
+               if (found != monitors_.end())
+                 monitors.push_back(static_cast<std::size_t>(found - monitors_.begin()));
              }
              auto primitive = MakePrimitive(plan.mission, node);
              primitive->Prepare({robot, plan.mission.primitives[node.primitive].rating,
@@ -62,14 +70,14 @@ Supervisor::Supervisor(const SafetyPlan& plan, const RobotSpec& robot, const Haz
   primitives_.resize(plan.mission.nodes.size());
   drive_->Configure(robot);
   StartMonitors();
-  for (const NamedMonitor& monitor : plan.monitors)
+  for (const NamedMonitor& monitor : monitors_)
     raised_.emplace_back(monitor.monitor->alarms().size(), 0);
   radps_.assign(robot.wheels.size(), 0);
   rows_.reserve(256);
 }
 
 void Supervisor::StartMonitors() {
-  for (const NamedMonitor& monitor : plan_.monitors) {
+  for (const NamedMonitor& monitor : monitors_) {
     monitor.monitor->Start({robot_, *drive_, known_});
     for (std::size_t w = 0; w < wheels_.out().size(); ++w)
       if (wheels_.out()[w]) monitor.monitor->Ignore(w);
@@ -107,15 +115,15 @@ void Supervisor::Run(double t_s) {
 }
 
 void Supervisor::Watch(const MonitorReadings& now) {
-  for (std::size_t m = 0; m < plan_.monitors.size(); ++m) {
-    plan_.monitors[m].monitor->Update(now);
-    const std::span<const Alarm> alarms = plan_.monitors[m].monitor->alarms();
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    monitors_[m].monitor->Update(now);
+    const std::span<const Alarm> alarms = monitors_[m].monitor->alarms();
     for (std::size_t i = 0; i < alarms.size(); ++i) {
       int& raised = raised_[m][i];
       if (alarms[i].raised() && raised == 0) {
         alarms_.push_back({now.t_s,
-                           plan_.monitors[m].name,
-                           plan_.monitors[m].monitor->by_wheel() ? robot_.wheels[i].name : "",
+                           monitors_[m].name,
+                           monitors_[m].monitor->by_wheel() ? robot_.wheels[i].name : "",
                            {},
                            alarms[i].value(),
                            alarms[i].limit()});
@@ -183,7 +191,7 @@ void Supervisor::Wait(double t_s) {
   }
   wait_until_s_.reset();
   trial_since_s_ = t_s;
-  for (const NamedMonitor& monitor : plan_.monitors) monitor.monitor->Retry();
+  for (const NamedMonitor& monitor : monitors_) monitor.monitor->Retry();
   Say(t_s, 0, "it tries again");
 }
 
@@ -198,7 +206,7 @@ void Supervisor::Try(double t_s) {
   share_ = plan_.reaction.adapt_share;
   if (t_s - *trial_since_s_ < plan_.reaction.cautious_s) return;
   trial_since_s_.reset();
-  for (const NamedMonitor& monitor : plan_.monitors) monitor.monitor->Rearm();
+  for (const NamedMonitor& monitor : monitors_) monitor.monitor->Rearm();
   GoOn(t_s, "nothing was seen again");
 }
 
@@ -214,7 +222,7 @@ void Supervisor::GoOn(double t_s, const char* why) {
 bool Supervisor::Reconfigure(double t_s, Availability most) {
   std::ranges::fill(wheels_raised_, 0);
   bool any = false;
-  for (const NamedMonitor& monitor : plan_.monitors) {
+  for (const NamedMonitor& monitor : monitors_) {
     if (!monitor.monitor->by_wheel()) continue;
     const std::span<const Alarm> alarms = monitor.monitor->alarms();
     for (std::size_t w = 0; w < alarms.size(); ++w)
@@ -235,7 +243,7 @@ bool Supervisor::Reconfigure(double t_s, Availability most) {
   for (std::size_t w = 0; w < wheels_raised_.size(); ++w) {
     if (!wheels_raised_[w]) continue;
     names += (names.empty() ? "" : " ") + robot_.wheels[w].name;
-    for (const NamedMonitor& monitor : plan_.monitors) monitor.monitor->Ignore(w);
+    for (const NamedMonitor& monitor : monitors_) monitor.monitor->Ignore(w);
   }
   Say(t_s, 0, std::string(kDrivenWithout) + names);
   return true;
@@ -243,7 +251,7 @@ bool Supervisor::Reconfigure(double t_s, Availability most) {
 
 // Whether an alarm is of this time or later, and not of when it last drove.
 bool Supervisor::SeenSince(double t_s) const {
-  return std::ranges::any_of(plan_.monitors, [&](const NamedMonitor& monitor) {
+  return std::ranges::any_of(monitors_, [&](const NamedMonitor& monitor) {
     return std::ranges::any_of(monitor.monitor->alarms(), [&](const Alarm& alarm) {
       return alarm.raised() && alarm.last_s() > t_s;
     });
@@ -297,7 +305,7 @@ std::string Supervisor::WhatIsWrong(std::size_t node) const {
   std::string text;
   const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
   for (const std::size_t m : primitives_[node]->monitors()) {
-    const NamedMonitor& monitor = plan_.monitors[m];
+    const NamedMonitor& monitor = monitors_[m];
     const std::span<const Alarm> alarms = monitor.monitor->alarms();
     constexpr std::ptrdiff_t kSingly = 3;
     if (const auto raised = std::ranges::count_if(alarms, &Alarm::raised); raised > kSingly) {

@@ -101,6 +101,7 @@ class Supervisor {
   std::string WhatIsWrong(std::size_t node) const;
 
   const SafetyPlan& plan_;
+  const std::vector<NamedMonitor> monitors_;
   const RobotSpec& robot_;
   const HazardMap& known_;
   const double comes_to_rest_s_;

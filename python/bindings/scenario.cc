@@ -87,7 +87,11 @@ nb::dict ReadSiteAlone(const fs::path& file, const std::optional<std::string>& t
   return SiteDict(ReadSite(site, file.parent_path(), files).map);
 }
 
-std::vector<std::string> SensorsOf(const Scenario& s) { return SensorNames(s.agents.sensors); }
+std::vector<std::string> SensorsOf(const Scenario& s) {
+  std::vector<std::string> names;
+  for (const SensorSpec& sensor : s.spec.sensors) names.push_back(sensor.plugin.name);
+  return names;
+}
 
 // --- plans ---
 
@@ -152,7 +156,7 @@ void BindScenario(nb::module_& m) {
       .def_prop_ro("name", [](const Scenario& s) { return s.spec.name; })
       .def_prop_ro("robot_name", [](const Scenario& s) { return s.spec.robot_name; })
       .def_prop_ro("planner", [](const Scenario& s) { return s.spec.planner_name; })
-      .def_prop_ro("tracker", [](const Scenario& s) { return s.spec.tracker_name; })
+      .def_prop_ro("tracker", [](const Scenario& s) { return s.spec.tracker.name; })
       .def_prop_ro("start", [](const Scenario& s) { return PoseTuple(s.world.start); })
       .def_prop_ro("control_hz", [](const Scenario& s) { return s.spec.episode.control_hz; })
       .def_prop_ro("seed", [](const Scenario& s) { return s.spec.episode.seed; })

@@ -188,9 +188,6 @@ class Stepped {
       throw InputError({s.spec.file.string(), 0}, "drive", s.spec.episode.drive,
                        "must be physics where the robot is commanded step by step");
     told_.emplace(s, outlook);
-    auto tracker = std::make_unique<Commanded>(plan == nullptr);
-    tracker_ = tracker.get();
-    s.agents.tracker = std::move(tracker);
     std::unique_ptr<Navigator> navigator;
     if (plan != nullptr) {
       driven_->plan = *plan;
@@ -211,8 +208,12 @@ class Stepped {
       driven_->recording.emplace(static_cast<int>(driven_->scene->model->nq));
       recorder_.emplace(s.world.robot.spec, s.spec.episode.control_hz, *driven_->recording);
     }
-    episode_ =
-        std::make_unique<SteppedEpisode>(s, *driven_->scene, driven_->plan, std::move(navigator));
+    Agents agents = MakeAgents(s.spec);
+    auto tracker = std::make_unique<Commanded>(plan == nullptr);
+    tracker_ = tracker.get();
+    agents.tracker = std::move(tracker);
+    episode_ = std::make_unique<SteppedEpisode>(s, std::move(agents), *driven_->scene,
+                                                driven_->plan, std::move(navigator));
     told_->Begin(s, *episode_, plan != nullptr, spaces);
     Note();
     told_->Look(*episode_, tracker_->target_W());

@@ -62,7 +62,7 @@ std::string EpisodeMaker::Answer(Job job) {
   return ToLine(row);
 }
 
-EpisodeRow EpisodeMaker::Drive(const Variant& variant, Scenario& s) {
+EpisodeRow EpisodeMaker::Drive(const Variant& variant, const Scenario& s) {
   const Planned& planned = Plan(variant, s);
   std::optional<Scene> scene;
   ReplayObserver replay(s.spec.episode.control_hz, nullptr);

@@ -50,7 +50,7 @@ class EpisodeMaker {
     std::string json;
     std::string made;  // by a program: the plan's text
   };
-  EpisodeRow Drive(const Variant& variant, Scenario& scenario);
+  EpisodeRow Drive(const Variant& variant, const Scenario& scenario);
   const Planned& Plan(const Variant& variant, const Scenario& scenario);
 
   const ScenarioFile& file_;

@@ -22,8 +22,10 @@ constexpr int kMostBumps = 100;   // targets missed in a row, before the planner
 
 class CellDrive {
  public:
-  CellDrive(Scenario& s, Grid<std::uint8_t> blocked, Cell start, EpisodeObserver* observer)
+  CellDrive(const Scenario& s, OnlinePlanner& online, Grid<std::uint8_t> blocked, Cell start,
+            EpisodeObserver* observer)
       : s_(s),
+        online_(online),
         observer_(observer),
         world_(s.world.site.map.frame, std::move(blocked), start, s.spec.online.radius_m),
         known_(s.world.site.map.frame),
@@ -34,7 +36,7 @@ class CellDrive {
   }
 
   EpisodeRecord Run() {
-    s_.agents.online->Start(
+    online_.Start(
         {world_.frame(), estimate_.X_WB, {}, {}, world_.frame().cell_m, PlanSeed(s_.spec)});
     std::optional<Outcome> ended;
     for (Trace(); !ended;) ended = Period();
@@ -51,8 +53,7 @@ class CellDrive {
         !observer_->OnControl({sample_, sensed_, estimate_, nullptr, world_.coverage(), 0}))
       return Outcome::kInterrupted;
     world_.Sense(known_);
-    const OnlineStep next =
-        s_.agents.online->Next({known_, *known_.changed, estimate_, bumps_ > 0});
+    const OnlineStep next = online_.Next({known_, *known_.changed, estimate_, bumps_ > 0});
     known_.changed->clear();
     if (next.kind == OnlineStep::Kind::kTarget)
       return DriveTo(world_.frame().ToCell(next.target_W));
@@ -133,14 +134,15 @@ class CellDrive {
     record_.sweepable = world_.reachable();
     known_.changed.reset();
     record_.known = std::move(known_);
-    record_.figures = s_.agents.online->figures();
+    record_.figures = online_.figures();
     record_.outcome = ended;
     record_.RequireCoverage(s_.spec.episode.min_coverage);
     if (ended == Outcome::kTimeout) record_.timeout = Timeout{sample_.t_s, sample_.X_WB(), ""};
     return std::move(record_);
   }
 
-  Scenario& s_;
+  const Scenario& s_;
+  OnlinePlanner& online_;
   EpisodeObserver* observer_;
   CellWorld world_;
   KnownMap known_;
@@ -155,7 +157,7 @@ class CellDrive {
 
 }  // namespace
 
-EpisodeRecord DriveCells(Scenario& s, EpisodeObserver* observer) {
+EpisodeRecord DriveCells(const Scenario& s, EpisodeObserver* observer) {
   const GridFrame& frame = s.world.site.map.frame;
   Grid<std::uint8_t> blocked = ObstacleMask(TrueFloor(s.world), s.world.robot.spec.step_m, frame);
   const Cell start = frame.ToCell(s.world.start.p());
@@ -165,7 +167,8 @@ EpisodeRecord DriveCells(Scenario& s, EpisodeObserver* observer) {
     record.message = "the robot starts in a cell that is not free";
     return record;
   }
-  return CellDrive(s, std::move(blocked), start, observer).Run();
+  const auto planner = MakePlugin(OnlinePlanners(), PlannerOf(s.spec), "plan.planner");
+  return CellDrive(s, *planner, std::move(blocked), start, observer).Run();
 }
 
 }  // namespace floorproof

@@ -45,11 +45,11 @@ const T* OrNull(const std::optional<T>& value) {
   return value ? &*value : nullptr;
 }
 
-std::optional<HazardSight> SightOf(const Scenario& s) {
+std::optional<HazardSight> SightOf(const ScenarioSpec& spec, const World& world) {
   std::vector<Reading> readings;
-  for (const NamedSensor& each : s.agents.sensors) readings.push_back(each.sensor->Fills());
+  for (const SensorSpec& each : spec.sensors) readings.push_back(each.fills);
   if (!HazardSight::Sees(readings)) return std::nullopt;
-  return HazardSight(s.world.site.map, s.world.robot.spec, 1.0 / s.spec.episode.control_hz);
+  return HazardSight(world.site.map, world.robot.spec, 1.0 / spec.episode.control_hz);
 }
 
 }  // namespace
@@ -59,8 +59,9 @@ std::optional<HazardSight> SightOf(const Scenario& s) {
 class EpisodeLoop {
  public:
   // `navigator`: none: the scenario's own.
-  EpisodeLoop(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
-              EpisodeObserver* observer, std::unique_ptr<Navigator> navigator = nullptr);
+  EpisodeLoop(const ScenarioSpec& spec, const World& world, Agents& agents, Plant& plant,
+              Simulation* simulation, const PlanResult& plan, EpisodeObserver* observer,
+              std::unique_ptr<Navigator> navigator = nullptr);
 
   EpisodeRecord Run() {
     Begin();
@@ -75,7 +76,7 @@ class EpisodeLoop {
   std::optional<Outcome> Advance() {
     std::optional<Outcome> ended = Control();
     for (std::int64_t step = 0; step < steps_a_control_ && !ended; ++step) ended = Step();
-    if (!ended) Perceive(1.0 / s_.spec.episode.control_hz);
+    if (!ended) Perceive(1.0 / spec_.episode.control_hz);
     return ended;
   }
   // The same; and where the next one would end it without driving, or only bring it to rest, it is
@@ -89,7 +90,7 @@ class EpisodeLoop {
   // What came of a period that the end broke off. Not part of the record, which is made before.
   void PerceiveEnd() {
     const double dt_s = sample_.t_s - sensed_.t_s;
-    if (dt_s > 0.5 * s_.world.physics.timestep_s) Perceive(dt_s);
+    if (dt_s > 0.5 * world_.physics.timestep_s) Perceive(dt_s);
   }
 
   EpisodeView View() {
@@ -105,19 +106,19 @@ class EpisodeLoop {
   const RobotSide& robot() const { return robot_side_; }
 
   EpisodeRecord Finish(Outcome ended) {
-    EpisodeRecord record = recorder_.Finish(ended, sample_, robot_side_, s_.agents.detectors,
-                                            s_.spec.episode.min_coverage, plant_.battery_left());
-    if (online_ && !navigator_->plan().empty()) record.figures = s_.agents.online->figures();
+    EpisodeRecord record = recorder_.Finish(ended, sample_, robot_side_, agents_.detectors,
+                                            spec_.episode.min_coverage, plant_.battery_left());
+    if (online_ && !navigator_->plan().empty()) record.figures = agents_.online->figures();
     if (ended == Outcome::kError) record.message = plant_.WhyBroken();
     if (record.message.empty()) record.message = navigator_->why();
     if (record.outcome == Outcome::kTimeout) {
       record.timeout = Unfinished();
-      if (record.message.empty()) record.message = Text(*record.timeout, s_.world.site.map);
+      if (record.message.empty()) record.message = Text(*record.timeout, world_.site.map);
     }
     if (record.message.empty() && record.outcome == Outcome::kAborted)
       record.message = robot_side_.supervisor()->stopped();
     if (record.message.empty()) record.message = interventions_.why_not();
-    if (s_.spec.episode.drive == "physics" && !(ended == Outcome::kSuccess && IsEnoughCovered()))
+    if (spec_.episode.drive == "physics" && !(ended == Outcome::kSuccess && IsEnoughCovered()))
       record.RequireArrival(HowItArrived(), MostPlanLeft());
     record.TakeMissed(robot_side_.missed());
     encounters_.OnBlow(blows_.Take());
@@ -138,16 +139,15 @@ class EpisodeLoop {
   }
   bool IsLate() const { return sample_.t_s >= limit_s_ + interventions_.extra_s(); }
   bool IsEnoughCovered() const {
-    const std::optional<double>& enough = s_.spec.episode.stop_at_coverage;
+    const std::optional<double>& enough = spec_.episode.stop_at_coverage;
     return enough && recorder_.coverage() >= *enough;
   }
   bool IsAtRest(const Supervisor& supervisor) const;
   Arrival HowItArrived() const;
   double MostPlanLeft() const {
     constexpr double kMost = 0.1;
-    const bool goes_around =
-        s_.agents.recovery || s_.agents.safety || s_.spec.episode.on_failure == "assist";
-    return s_.spec.episode.max_plan_left.value_or(goes_around ? 1 : kMost);
+    const bool goes_around = spec_.recovery || spec_.safety || spec_.episode.on_failure == "assist";
+    return spec_.episode.max_plan_left.value_or(goes_around ? 1 : kMost);
   }
   bool HasRested() const {
     constexpr double kAtRest_s = 2;
@@ -167,7 +167,9 @@ class EpisodeLoop {
   Timeout Unfinished() const;
   Encounter::After After(Outcome ended) const;
 
-  Scenario& s_;
+  const ScenarioSpec& spec_;
+  const World& world_;
+  Agents& agents_;
   Plant& plant_;
   Simulation* simulation_;
   EpisodeObserver* observer_;
@@ -195,43 +197,47 @@ class EpisodeLoop {
   HazardMemory met_{&HazardMemory::Holds};
 };
 
-EpisodeLoop::EpisodeLoop(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
-                         EpisodeObserver* observer, std::unique_ptr<Navigator> navigator)
-    : s_(s),
+EpisodeLoop::EpisodeLoop(const ScenarioSpec& spec, const World& world, Agents& agents, Plant& plant,
+                         Simulation* simulation, const PlanResult& plan, EpisodeObserver* observer,
+                         std::unique_ptr<Navigator> navigator)
+    : spec_(spec),
+      world_(world),
+      agents_(agents),
       plant_(plant),
       simulation_(simulation),
       observer_(observer),
-      robot_(s.world.robot.spec),
-      online_(s.spec.plan_by == PlanBy::kOnline),
-      known_(KnownFloor(s.world)),
-      true_(TrueFloor(s.world)),
-      area_(ComputeSweepArea(true_, robot_, robot_.clear, robot_.tool, s.world.start)),
+      robot_(world.robot.spec),
+      online_(spec.plan_by == PlanBy::kOnline),
+      known_(KnownFloor(world)),
+      true_(TrueFloor(world)),
+      area_(ComputeSweepArea(true_, robot_, robot_.clear, robot_.tool, world.start)),
       plan_m_(online_ ? std::numeric_limits<double>::infinity()
                       : std::max(Length(plan.path), 1e-9)),
-      steps_a_control_(std::lround(1.0 / (s.spec.episode.control_hz * s.world.physics.timestep_s))),
-      recorder_(s, area_, plan),
-      blows_(robot_, s.world.physics.timestep_s),
-      sight_(SightOf(s)),
+      steps_a_control_(std::lround(1.0 / (spec.episode.control_hz * world.physics.timestep_s))),
+      recorder_(spec, world, area_, plan),
+      blows_(robot_, world.physics.timestep_s),
+      sight_(SightOf(spec, world)),
       encounters_(true_, robot_, IsHolonomic(robot_), OrNull(sight_)),
-      interventions_(s.spec.episode, s.world),
-      navigator_(navigator ? std::move(navigator) : MakeNavigator(s, plan, known_)),
+      interventions_(spec.episode, world),
+      navigator_(navigator ? std::move(navigator)
+                           : MakeNavigator(spec, world, agents.online.get(), plan, known_)),
       robot_side_(robot_, known_, *navigator_,
-                  {*s.agents.tracker, *s.agents.estimator, OrNull(s.agents.mapper),
-                   OrNull(s.agents.recovery), OrNull(s.agents.safety), !online_},
-                  1.0 / s.spec.episode.control_hz) {
-  if (!online_ && !LeadsItself(s.spec)) passed_.emplace(plan.path, s.spec.episode.arrival_m);
+                  {*agents.tracker, *agents.estimator, OrNull(agents.mapper), OrNull(spec.recovery),
+                   OrNull(spec.safety), !online_},
+                  1.0 / spec.episode.control_hz) {
+  if (!online_ && !LeadsItself(spec)) passed_.emplace(plan.path, spec.episode.arrival_m);
 }
 
 void EpisodeLoop::Begin() {
-  plant_.Reset(s_.world.start, sensed_);
+  plant_.Reset(world_.start, sensed_);
   Look();
-  robot_side_.Start(s_.world.start, EpisodeStream(s_.spec, "estimator"));
-  const double plan_s = LeadsItself(s_.spec) ? GoToDuration(navigator_->plan(), robot_)
-                                             : s_.agents.tracker->Duration();
-  limit_s_ = online_ ? OnlineLimit_s(s_.spec.episode) : PlanLimit_s(s_.spec.episode, plan_s);
+  robot_side_.Start(world_.start, EpisodeStream(spec_, "estimator"));
+  const double plan_s =
+      LeadsItself(spec_) ? GoToDuration(navigator_->plan(), robot_) : agents_.tracker->Duration();
+  limit_s_ = online_ ? OnlineLimit_s(spec_.episode) : PlanLimit_s(spec_.episode, plan_s);
   recorder_.Expect(plan_s);
   StartDetectors();
-  Perceive(1.0 / s_.spec.episode.control_hz);
+  Perceive(1.0 / spec_.episode.control_hz);
 }
 
 // What happens once a control period: command by what was sensed, keep a record, look on, help.
@@ -258,12 +264,12 @@ std::optional<Outcome> EpisodeLoop::Control() {
 
   if (!ended && interventions_.HasCome(sample_.t_s)) {     // after sensing: a bump was where it lay
     if (sample_.battery_v == 0) return Outcome::kFailure;  // cut off while it waited
-    recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), s_.agents.detectors);
+    recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), agents_.detectors);
     rest_.Drop();
     encounters_.Lift();
     blows_.Lift();
     Look();
-    robot_side_.Helped(sample_.X_WB(), EpisodeStream(s_.spec, "estimator"), sample_.t_s);
+    robot_side_.Helped(sample_.X_WB(), EpisodeStream(spec_, "estimator"), sample_.t_s);
     Act(robot_side_.actuation());
     StartDetectors();
   }
@@ -305,9 +311,9 @@ bool EpisodeLoop::HasComeToRest() const { return rest_.begun() && rest_.IsOver(s
 Arrival EpisodeLoop::HowItArrived() const {
   Arrival how;
   how.believed = rest_.begun();
-  how.most_off_m = s_.spec.episode.arrival_m;
+  how.most_off_m = spec_.episode.arrival_m;
   if (!online_) {
-    how.end_W = (LeadsItself(s_.spec) ? navigator_->path() : navigator_->plan()).back().p_W;
+    how.end_W = (LeadsItself(spec_) ? navigator_->path() : navigator_->plan()).back().p_W;
     how.off_m = (sample_.p_WB.head<2>() - how.end_W).norm();
   }
   how.at_rest = rest_.HasRested(sample_.t_s);
@@ -328,7 +334,7 @@ std::optional<Outcome> EpisodeLoop::Step() {
   Look();
   if (!good) return Outcome::kError;
   if (std::exchange(carried_, sample_.carried) != sample_.carried) {
-    recorder_.OnCarried(s_.agents.detectors);
+    recorder_.OnCarried(agents_.detectors);
     encounters_.Lift();
     blows_.Lift();
     StartDetectors();  // nothing that it did brought it there
@@ -356,8 +362,8 @@ std::optional<Outcome> EpisodeLoop::Step() {
 
 // Something did, just now.
 std::optional<Outcome> EpisodeLoop::Failed() {
-  if (s_.spec.episode.on_failure == "ignore") return std::nullopt;
-  if (s_.spec.episode.on_failure == "watch") {
+  if (spec_.episode.on_failure == "ignore") return std::nullopt;
+  if (spec_.episode.on_failure == "watch") {
     aftermath_.OnFailure(sample_.t_s);
     encounters_.OnBlow(blows_.Take());
     encounters_.Watch();
@@ -388,9 +394,9 @@ void EpisodeLoop::Act(const Actuation& actuation) {
 }
 
 void EpisodeLoop::StartDetectors() {
-  const EpisodeContext context{s_.world.site.map, robot_, s_.world.physics.timestep_s};
+  const EpisodeContext context{world_.site.map, robot_, world_.physics.timestep_s};
   met_.Start(context);
-  for (auto& [name, detector] : s_.agents.detectors) detector->Start(context);
+  for (auto& [name, detector] : agents_.detectors) detector->Start(context);
 }
 
 // Where the time ran out, and what held the robot last.
@@ -402,7 +408,7 @@ Timeout EpisodeLoop::Unfinished() const {
 // True when one of them fired; all see every sample.
 bool EpisodeLoop::Detect() {
   bool failed = false;
-  for (auto& [name, detector] : s_.agents.detectors) {
+  for (auto& [name, detector] : agents_.detectors) {
     if (!detector->Update(sample_)) continue;
     recorder_.OnEvent(detector->event());
     encounters_.OnEvent(detector->event());
@@ -413,28 +419,33 @@ bool EpisodeLoop::Detect() {
 
 namespace {
 
-PhysicsPlant MakePlant(Scenario& s, const Scene& scene) {
-  return PhysicsPlant(scene, s.world.site.map, s.world.robot.spec, s.agents.sensors, s.world.faults,
-                      1.0 / s.spec.episode.control_hz,
-                      [&s](const std::string& name) { return EpisodeStream(s.spec, name); });
+PhysicsPlant MakePlant(const ScenarioSpec& spec, const World& world, Agents& agents,
+                       const Scene& scene) {
+  return PhysicsPlant(scene, world.site.map, world.robot.spec, agents.sensors, world.faults,
+                      1.0 / spec.episode.control_hz,
+                      [&spec](const std::string& name) { return EpisodeStream(spec, name); });
 }
 
 }  // namespace
 
 struct SteppedEpisode::Parts {
-  Parts(Scenario& s, const Scene& scene, const PlanResult& plan,
+  Parts(const Scenario& s, Agents given, const Scene& scene, const PlanResult& plan,
         std::unique_ptr<Navigator> navigator)
-      : plant(MakePlant(s, scene)),
-        episode(s, plant, &plant.simulation(), plan, nullptr, std::move(navigator)) {
+      : agents(std::move(given)),
+        plant(MakePlant(s.spec, s.world, agents, scene)),
+        episode(s.spec, s.world, agents, plant, &plant.simulation(), plan, nullptr,
+                std::move(navigator)) {
     episode.Begin();
   }
+  Agents agents;
   PhysicsPlant plant;
   EpisodeLoop episode;
 };
 
-SteppedEpisode::SteppedEpisode(Scenario& scenario, const Scene& scene, const PlanResult& plan,
-                               std::unique_ptr<Navigator> navigator)
-    : parts_(std::make_unique<Parts>(scenario, scene, plan, std::move(navigator))) {}
+SteppedEpisode::SteppedEpisode(const Scenario& scenario, Agents agents, const Scene& scene,
+                               const PlanResult& plan, std::unique_ptr<Navigator> navigator)
+    : parts_(std::make_unique<Parts>(scenario, std::move(agents), scene, plan,
+                                     std::move(navigator))) {}
 SteppedEpisode::~SteppedEpisode() = default;
 std::optional<Outcome> SteppedEpisode::Advance() { return parts_->episode.AdvanceToEnd(); }
 EpisodeView SteppedEpisode::view() { return parts_->episode.View(); }
@@ -450,15 +461,15 @@ EpisodeRecord SteppedEpisode::Finish(Outcome outcome) {
   return record;
 }
 
-EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan,
-                         EpisodeObserver* observer) {
-  PhysicsPlant plant = MakePlant(s, scene);
-  return RunEpisode(s, plant, &plant.simulation(), plan, observer);
+EpisodeRecord RunEpisode(const Scenario& s, Agents& agents, const Scene& scene,
+                         const PlanResult& plan, EpisodeObserver* observer) {
+  PhysicsPlant plant = MakePlant(s.spec, s.world, agents, scene);
+  return RunEpisode(s, agents, plant, &plant.simulation(), plan, observer);
 }
 
-EpisodeRecord RunEpisode(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
-                         EpisodeObserver* observer) {
-  return EpisodeLoop(s, plant, simulation, plan, observer).Run();
+EpisodeRecord RunEpisode(const Scenario& s, Agents& agents, Plant& plant, Simulation* simulation,
+                         const PlanResult& plan, EpisodeObserver* observer) {
+  return EpisodeLoop(s.spec, s.world, agents, plant, simulation, plan, observer).Run();
 }
 
 }  // namespace floorproof

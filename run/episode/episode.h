@@ -12,6 +12,7 @@
 #include "env/sim/simulation.h"
 #include "planners/planner.h"
 #include "run/episode/episode_record.h"
+#include "run/scenario/agents.h"
 #include "run/scenario/scenario.h"
 
 namespace floorproof {
@@ -40,12 +41,12 @@ class EpisodeObserver {
 };
 
 // An episode a control period at a time, for who commands the robot from outside. All that it is
-// given outlives it; the scenario's plug-ins are started afresh.
+// given outlives it, but for the agents, which are its own.
 class SteppedEpisode {
  public:
   // `navigator`: none: the scenario's own. Throws InputError.
-  SteppedEpisode(Scenario& scenario, const Scene& scene, const PlanResult& plan,
-                 std::unique_ptr<Navigator> navigator = nullptr);
+  SteppedEpisode(const Scenario& scenario, Agents agents, const Scene& scene,
+                 const PlanResult& plan, std::unique_ptr<Navigator> navigator = nullptr);
   ~SteppedEpisode();
 
   // Commands, drives one period and senses what came of it; the outcome where that ended the
@@ -67,12 +68,12 @@ class SteppedEpisode {
   std::unique_ptr<Parts> parts_;
 };
 
-// Drives the plan. The scenario's plug-ins are started afresh, so the same call gives the same
-// record.
-EpisodeRecord RunEpisode(Scenario& scenario, const Scene& scene, const PlanResult& plan,
-                         EpisodeObserver* observer = nullptr);
+// Drives the plan. `agents`: made for it (MakeAgents); what they have become is of no use to
+// another episode.
+EpisodeRecord RunEpisode(const Scenario& scenario, Agents& agents, const Scene& scene,
+                         const PlanResult& plan, EpisodeObserver* observer = nullptr);
 // The same on any plant; `simulation`: for observers, nullptr where there is none.
-EpisodeRecord RunEpisode(Scenario& scenario, Plant& plant, Simulation* simulation,
-                         const PlanResult& plan, EpisodeObserver* observer);
+EpisodeRecord RunEpisode(const Scenario& scenario, Agents& agents, Plant& plant,
+                         Simulation* simulation, const PlanResult& plan, EpisodeObserver* observer);
 
 }  // namespace floorproof

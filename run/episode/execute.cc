@@ -22,7 +22,7 @@ void MeasureSamples(const RobotSpec& robot, const PlanResult& plan, EpisodeRecor
 
 }  // namespace
 
-Execution Execute(Scenario& scenario, EpisodeObserver* observer) {
+Execution Execute(const Scenario& scenario, EpisodeObserver* observer) {
   Execution out;
   out.plan = MakePlan(scenario);
   if (observer) observer->OnPlan(out.plan);
@@ -30,7 +30,7 @@ Execution Execute(Scenario& scenario, EpisodeObserver* observer) {
   return out;
 }
 
-EpisodeRecord ExecutePlan(Scenario& s, const PlanResult& plan, std::optional<Scene>& scene,
+EpisodeRecord ExecutePlan(const Scenario& s, const PlanResult& plan, std::optional<Scene>& scene,
                           EpisodeObserver* observer) {
   if (plan.status == PlanStatus::kOnline && s.spec.episode.drive == "cells")
     return DriveCells(s, observer);
@@ -49,7 +49,8 @@ EpisodeRecord ExecutePlan(Scenario& s, const PlanResult& plan, std::optional<Sce
   if (s.world.dirt && !plan.samples.empty()) dirt = DirtyFloor(s, *plan.risk);
   scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
   if (observer) observer->OnScene(*scene);
-  record = RunEpisode(s, *scene, plan, observer);
+  Agents agents = MakeAgents(s.spec);
+  record = RunEpisode(s, agents, *scene, plan, observer);
   if (dirt) record.audit = AuditFloor(s, plan, record.sample_stops, std::move(*dirt));
   MeasureSamples(s.world.robot.spec, plan, record);
   return record;

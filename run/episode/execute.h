@@ -19,10 +19,10 @@ struct Execution {
 // Plans, builds the scene, drives. Without a plan the outcome is kNotPlanned; with `drive: none` it
 // is kSuccess, and nothing is driven; with `drive: cells` there is no scene. Throws InputError,
 // InternalError.
-Execution Execute(Scenario& scenario, EpisodeObserver* observer = nullptr);
+Execution Execute(const Scenario& scenario, EpisodeObserver* observer = nullptr);
 
 // The rest of it, the plan made before.
-EpisodeRecord ExecutePlan(Scenario& scenario, const PlanResult& plan, std::optional<Scene>& scene,
-                          EpisodeObserver* observer = nullptr);
+EpisodeRecord ExecutePlan(const Scenario& scenario, const PlanResult& plan,
+                          std::optional<Scene>& scene, EpisodeObserver* observer = nullptr);
 
 }  // namespace floorproof

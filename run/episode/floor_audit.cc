@@ -112,12 +112,12 @@ double OffPlace(const RobotSpec& robot, const PlanResult& plan, const SampleStop
 
 PlanResult CleanerPlan(const Scenario& s, const RiskMap& risk) {
   const HazardMap known = KnownFloor(s.world);
-  PlanResult plan =
-      s.world.dirt->cleaner->Plan({known, s.world.robot.spec, s.world.start, s.world.goal,
+  const auto cleaner = MakePlugin(Planners(), s.world.dirt->cleaner, "dirt.cleaning.plan.planner");
+  PlanResult plan = cleaner->Plan({known, s.world.robot.spec, s.world.start, s.world.goal,
                                    EpisodeStream(s.spec, "cleaner").Next(), &risk});
   if (plan.status != PlanStatus::kSuccess)
     throw InputError(s.world.dirt->cleaner_mark, "dirt.cleaning.plan.planner",
-                     s.world.dirt->cleaner_name,
+                     s.world.dirt->cleaner.name,
                      fmt::format("finds no plan ({}): {}", Name(plan.status), plan.message));
   return plan;
 }

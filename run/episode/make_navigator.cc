@@ -25,20 +25,21 @@ Extent Around(const Shape2& shape) {
 
 }  // namespace
 
-std::unique_ptr<Navigator> MakeNavigator(const Scenario& s, const PlanResult& plan,
+std::unique_ptr<Navigator> MakeNavigator(const ScenarioSpec& spec, const World& world,
+                                         OnlinePlanner* online, const PlanResult& plan,
                                          const HazardMap& known) {
-  const RobotSpec& robot = s.world.robot.spec;
-  if (LeadsItself(s.spec)) return std::make_unique<GoToNavigator>(plan);
-  if (s.spec.plan_by != PlanBy::kOnline)
+  const RobotSpec& robot = world.robot.spec;
+  if (LeadsItself(spec)) return std::make_unique<GoToNavigator>(plan);
+  if (online == nullptr)
     return std::make_unique<PlanNavigator>(plan, known, robot,
-                                           s.agents.recovery ? &*s.agents.recovery : nullptr);
-  const HeldShapes held = HoldYaw(known, s.world.start, robot.clear, robot.tool);
+                                           spec.recovery ? &*spec.recovery : nullptr);
+  const HeldShapes held = HoldYaw(known, world.start, robot.clear, robot.tool);
   const Extent body = Around(held.clear);
   return std::make_unique<OnlineNavigator>(
-      *s.agents.online,
+      *online,
       OnlineNavigator::Robot{body, body.Wider(kMargin_m), Around(held.tool), robot.tool_width_m,
                              kPlannedShare * robot.max_accel_mps2, held.yaw_rad},
-      s.world.start.p(), PlanSeed(s.spec));
+      world.start.p(), PlanSeed(spec));
 }
 
 }  // namespace floorproof

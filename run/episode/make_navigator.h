@@ -6,12 +6,15 @@
 
 #include "controllers/navigator.h"
 #include "planners/planner.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/scenario_spec.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 
-// All outlive it. `plan` was made on `known`; of an unknown floor it is empty.
-std::unique_ptr<Navigator> MakeNavigator(const Scenario& scenario, const PlanResult& plan,
+// All outlive it. `online`: of an unknown floor, else nullptr. `plan` was made on `known`; of an
+// unknown floor it is empty.
+std::unique_ptr<Navigator> MakeNavigator(const ScenarioSpec& spec, const World& world,
+                                         OnlinePlanner* online, const PlanResult& plan,
                                          const HazardMap& known);
 
 }  // namespace floorproof

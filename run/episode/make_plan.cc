@@ -76,7 +76,7 @@ PlanResult MakePlan(const Scenario& s) {
       risk.get(), s.spec.places, s.spec.risk_model.get(), conditions};
   PlanResult plan;
   if (s.spec.plan_by == PlanBy::kPlanner) {
-    plan = Planned(*s.agents.planner, request);
+    plan = Planned(*MakePlugin(Planners(), PlannerOf(s.spec), "plan.planner"), request);
   } else {
     if (s.spec.plan_by == PlanBy::kOnline) {
       plan.status = PlanStatus::kOnline;

@@ -38,8 +38,8 @@ std::string PlanInputs(const Scenario& s) {
   if (s.world.goal)
     text += " to " + FormatDouble(s.world.goal->x()) + " " + FormatDouble(s.world.goal->y());
   ConfigNode params = ConfigNode::Map();
-  if (Configurable* planner = PlannerOf(s))
-    WriteParams(*planner, params);
+  if (IsPlanned(s.spec))
+    WriteValues(s.spec.planner_params, params);
   else if (const PlanCommand* program = ProgramToAsk(s.spec))
     text += "\n" + ProgramInputs(s, *program);
   else

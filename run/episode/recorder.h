@@ -24,16 +24,17 @@ namespace floorproof {
 class Recorder {
  public:
   // All outlive it.
-  Recorder(const Scenario& s, const SweepArea& area, const PlanResult& plan)
+  Recorder(const ScenarioSpec& spec, const World& world, const SweepArea& area,
+           const PlanResult& plan)
       : area_(area),
-        meter_(area, s.world.robot.spec),
+        meter_(area, world.robot.spec),
         risk_(*plan.risk),
         samples_(plan.samples.size()),
-        asks_for_risk_(AsksForRisk(s.spec)),
-        dt_s_(s.world.physics.timestep_s),
-        trace_hz_(s.spec.episode.trace_hz),
-        trace_every_(s.spec.episode.control_hz / s.spec.episode.trace_hz) {
-    for (const ScheduledFault& fault : s.world.faults)
+        asks_for_risk_(AsksForRisk(spec)),
+        dt_s_(world.physics.timestep_s),
+        trace_hz_(spec.episode.trace_hz),
+        trace_every_(spec.episode.control_hz / spec.episode.trace_hz) {
+    for (const ScheduledFault& fault : world.faults)
       first_fault_s_ = std::min(first_fault_s_, fault.timing.onset_s);
   }
 

@@ -317,7 +317,7 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
   if (record.arrival) json["arrival"] = ArrivalJson(*record.arrival);
   if (!record.figures.empty()) json["planner"] = std::move(figures);
   if (record.audit) json["audit"] = AuditJson(*record.audit);
-  if (s.agents.safety) json["alarms"] = AlarmsJson(record.alarms);
+  if (s.spec.safety) json["alarms"] = AlarmsJson(record.alarms);
   json.update({{"events", std::move(events)},
                {"assists", InterventionsJson(record.interventions)},
                {"metrics", MetricsJson(record.metrics)},
@@ -431,7 +431,7 @@ void WriteEpisodeFiles(const Scenario& s, const PlanResult& plan, const EpisodeR
   if (!record.passes.cells.empty()) WriteFileWhole(folder / "visits.pgm", VisitsPgm(record));
   if (s.spec.episode.drive == "physics")
     WriteFileWhole(folder / "encounters.csv", EncountersCsv(record.encounters));
-  if (s.agents.safety) WriteFileWhole(folder / "safety.csv", SafetyCsv(record));
+  if (s.spec.safety) WriteFileWhole(folder / "safety.csv", SafetyCsv(record));
   if (!plan.samples.empty() && record.steps > 0)
     WriteFileWhole(folder / "plan.json", JsonText(PlanJson(s, plan, &record)) + "\n");
   if (record.outcome != Outcome::kInterrupted)

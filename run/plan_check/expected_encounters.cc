@@ -5,6 +5,7 @@
 
 #include "controllers/drive.h"
 #include "controllers/ideal_robot.h"
+#include "controllers/tracker.h"
 #include "env/core/blocks.h"
 #include "env/core/driven_floor.h"
 #include "run/episode/encounter_meter.h"
@@ -41,24 +42,25 @@ class EnoughCovered {
 
 }  // namespace
 
-std::vector<Encounter> ExpectedEncounters(Scenario& s, const PlanResult& plan) {
+std::vector<Encounter> ExpectedEncounters(const Scenario& s, const PlanResult& plan) {
   if (plan.path.empty()) return {};
   const RobotSpec& robot = s.world.robot.spec;
   const HazardMap known = KnownFloor(s.world), floor = TrueFloor(s.world);
   const ClearanceField clearance =
       ClearanceOnTheWay(known, LevelChangesOnTheWay(known, plan.path), robot.step_m);
-  s.agents.tracker->Start(plan.path, robot, &clearance);  // it is started anew before it drives
+  const auto tracker = MakePlugin(Trackers(), s.spec.tracker, "controller");
+  tracker->Start(plan.path, robot, &clearance);
   EncounterMeter meter(floor, robot, IsHolonomic(robot));
   IdealRobot ideal(robot, s.world.start);
   const double period_s = 1.0 / s.spec.episode.control_hz;
-  const double limit_s = PlanLimit_s(s.spec.episode, s.agents.tracker->Duration());
+  const double limit_s = PlanLimit_s(s.spec.episode, tracker->Duration());
   EnoughCovered enough(s, floor);
   Sample sample;
   for (std::int64_t period = 0; !sample.command.done && !enough.reached(); ++period) {
     sample.t_s = static_cast<double>(period) * period_s;
     if (sample.t_s >= limit_s) break;
     const Estimate& state = ideal.state();
-    sample.command = s.agents.tracker->Update(state, sample.t_s, period_s);
+    sample.command = tracker->Update(state, sample.t_s, period_s);
     sample.p_WB = {state.X_WB.x_m, state.X_WB.y_m, 0};
     sample.yaw_rad = state.X_WB.yaw_rad;
     sample.shape = robot.hinges.empty() ? 0 : ShapeOf(robot, state.hinges, kInShape_rad);

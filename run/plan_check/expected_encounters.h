@@ -15,6 +15,6 @@ namespace floorproof {
 // on, until the plan is driven, the time is over or enough is covered. Hazards that the robot is
 // not told of are met, too. Starts the tracker; throws InputError as Tracker::Start does. Empty
 // where the plan has no path. Takes some microseconds a control period.
-std::vector<Encounter> ExpectedEncounters(Scenario& scenario, const PlanResult& plan);
+std::vector<Encounter> ExpectedEncounters(const Scenario& scenario, const PlanResult& plan);
 
 }  // namespace floorproof

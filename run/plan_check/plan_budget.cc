@@ -3,20 +3,21 @@
 
 #include <algorithm>
 
+#include "controllers/tracker.h"
 #include "env/core/driven_floor.h"
 #include "env/scene/driving_power.h"
 #include "run/scenario/floors.h"
 
 namespace floorproof {
 
-PlanBudget EstimateBudget(Scenario& s, const PlanResult& plan) {
+PlanBudget EstimateBudget(const Scenario& s, const PlanResult& plan) {
   const HazardMap known = KnownFloor(s.world);
   const ClearanceField clearance =
       ClearanceOnTheWay(known, LevelChangesOnTheWay(known, plan.path), s.world.robot.spec.step_m);
-  s.agents.tracker->Start(plan.path, s.world.robot.spec,
-                          &clearance);  // it is started anew before it drives
+  const auto tracker = MakePlugin(Trackers(), s.spec.tracker, "controller");
+  tracker->Start(plan.path, s.world.robot.spec, &clearance);
   PlanBudget out;
-  out.time_s = s.agents.tracker->Duration();
+  out.time_s = tracker->Duration();
   double dwell_s = 0;
   for (const Waypoint& w : plan.path) dwell_s += w.dwell_s;
   const double moving_s = std::max(0.0, out.time_s - dwell_s);

@@ -19,6 +19,6 @@ struct PlanBudget {
 // the plan's mean speed (SteadyMotorsPower). Nothing that goes wrong is in it: slipping, waiting
 // for help, faults, hazards that are driven over. Starts the scenario's tracker on the plan. Throws
 // InputError as Tracker::Start does.
-PlanBudget EstimateBudget(Scenario& scenario, const PlanResult& plan);
+PlanBudget EstimateBudget(const Scenario& scenario, const PlanResult& plan);
 
 }  // namespace floorproof

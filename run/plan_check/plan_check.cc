@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/quantity.h"
+#include "controllers/estimator.h"
 #include "env/core/failure_text.h"
 #include "run/plan_check/sharp_corners.h"
 #include "run/plan_check/unheld_dwells.h"
@@ -227,7 +228,7 @@ std::string SweptText(const PlanResult& plan, const Json& json) {
                      NumberText(json["sweepable_m2"].get<double>()));
 }
 
-PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
+PlanCheck CheckPlan(const Scenario& s, const PlanResult& plan) {
   const SweepArea area = ComputeSweepArea(KnownFloor(s.world), s.world.robot.spec, plan.clear,
                                           plan.tool, s.world.start);
   return {CheckClearance(s.world, plan), FindDrivenOver(s.world, plan),
@@ -283,8 +284,9 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
         "that is not in it (start.x_m, start.y_m)",
         LengthText(plan.lead_in_m), At(s.world.start.p())));
   const HazardMap floor = KnownFloor(s.world);
-  AddClearance(floor, check.clearance, s.spec.estimator_name,
-               s.agents.estimator->error_m(floor, Length(plan.path)), lines);
+  const auto estimator = MakePlugin(Estimators(), s.spec.estimator, "estimator");
+  AddClearance(floor, check.clearance, s.spec.estimator.name,
+               estimator->error_m(floor, Length(plan.path)), lines);
   if (const auto sharp = SharpCornersLine(s.world.robot.spec, check.sharp_corners); !sharp.empty())
     lines.push_back(sharp);
   if (auto unheld = UnheldDwellLine(s.world, plan); !unheld.empty())

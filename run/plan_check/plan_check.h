@@ -31,7 +31,7 @@ std::string PlannedText(const PlanResult& plan);
 std::string SweptText(const PlanResult& plan, const nlohmann::ordered_json& json);
 
 // Of a plan that was found.
-PlanCheck CheckPlan(Scenario& scenario, const PlanResult& plan);
+PlanCheck CheckPlan(const Scenario& scenario, const PlanResult& plan);
 
 // In words, a line each; what needs a look begins with "warning: ". Of places,
 // hazards and pockets at most five each are listed, the rest counted.

@@ -158,8 +158,8 @@ class Predictor {
 
   static std::vector<std::string> LeftOut(const Scenario& s) {
     std::vector<std::string> left_out;
-    if (s.spec.estimator_name != "truth")
-      left_out.push_back("how wrong " + s.spec.estimator_name +
+    if (s.spec.estimator.name != "truth")
+      left_out.push_back("how wrong " + s.spec.estimator.name +
                          " is about the robot's place: it is taken to know it");
     const std::optional<double> own_v =
         ReadRobot(s.spec.robot_file, {}, Blocks::kLocked, s.files).spec.battery.voltage_v;
@@ -168,7 +168,7 @@ class Predictor {
       left_out.push_back(fmt::format("a battery of {} V: the rates were measured at {} V",
                                      NumberText(*v), NumberText(*own_v)));
     if (!s.world.faults.empty()) left_out.push_back("what breaks (`faults`)");
-    if (s.agents.safety) left_out.push_back("what its supervision does (`safety`)");
+    if (s.spec.safety) left_out.push_back("what its supervision does (`safety`)");
     return left_out;
   }
 

@@ -86,7 +86,7 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
   if (base.spec.episode.drive == "none")
     throw InputError({file.file().string(), 0}, "drive", "none",
                      "nothing that is not driven fails");
-  const RareScore score(request.mode, base.agents.detectors);
+  const RareScore score(request.mode, MakeDetectors(base.spec));
   const RareCoordinates coordinates(file, base);
   const std::optional<RareGate> gate = RareGate::Read(base.text.gate, request.mode);
   if (!base.text.gate.IsNull() && !gate)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who acts in one episode: who plans, drives, senses, watches and judges.
+// The plug-ins of one episode: planner of an unknown floor, tracker, estimator, sensors, mapper,
+// failure detectors. They keep state, so each episode makes its own: nothing leaks into the next.
 #pragma once
 
 #include <memory>
@@ -8,26 +9,26 @@
 
 #include "controllers/estimator.h"
 #include "controllers/mapper.h"
-#include "controllers/recovery.h"
-#include "controllers/supervision/safety_plan.h"
 #include "controllers/tracker.h"
 #include "env/failures/detector.h"
 #include "env/sensors/sensor.h"
 #include "planners/online/online_planner.h"
-#include "planners/planner.h"
+#include "run/scenario/scenario_spec.h"
 
 namespace floorproof {
 
 struct Agents {
-  std::unique_ptr<Planner> planner;       // none: somebody else's plan
-  std::unique_ptr<OnlinePlanner> online;  // on the way, as the floor becomes known
+  std::unique_ptr<OnlinePlanner> online;  // none: the plan is made before the drive
   std::unique_ptr<Tracker> tracker;
   std::unique_ptr<Estimator> estimator;
-  std::vector<NamedSensor> sensors;        // those written, and those that a part of it needs
-  std::optional<Mapper> mapper;            // none: no map is drawn
-  std::optional<RecoveryParams> recovery;  // none: the plan is driven blindly
-  std::optional<SafetyPlan> safety;        // none: nobody watches it
+  std::vector<NamedSensor> sensors;
+  std::optional<Mapper> mapper;  // none: no map is drawn
   std::vector<NamedDetector> detectors;
 };
+
+// Makes them from names and parameters. Throws InputError for a plug-in that does not exist.
+Agents MakeAgents(const ScenarioSpec& spec);
+std::vector<NamedSensor> MakeSensors(const ScenarioSpec& spec);
+std::vector<NamedDetector> MakeDetectors(const ScenarioSpec& spec);
 
 }  // namespace floorproof

@@ -18,9 +18,7 @@ bool NoiseCanDiffer(const Scenario& s) {
   if (const PlanCommand* program = ProgramToAsk(s.spec); program && program->uses_seed) return true;
   if (s.spec.episode.drive != "none" && s.spec.draws_on_the_way) return true;
   if (s.spec.episode.drive != "physics") return false;
-  return s.agents.estimator->draws() ||
-         std::ranges::any_of(s.agents.sensors,
-                             [](const NamedSensor& n) { return n.sensor->draws(); });
+  return s.spec.estimator_draws || std::ranges::any_of(s.spec.sensors, &SensorSpec::draws);
 }
 
 }  // namespace floorproof

@@ -44,10 +44,10 @@ std::unique_ptr<Planner> MakeCleaner(const NamedPlugin& named) {
 void ReadCleaning(const ConfigNode& node, FloorDirt& dirt) {
   ReadParams(node, kCleaningPath, [&](ParamVisitor& v) { dirt.cleaning.Visit(v); }, {"plan"});
   const NamedPlugin named = ReadNamed(node, "plan", "planner", "boustrophedon", kCleaningPath);
-  dirt.cleaner_name = named.name;
+  const auto cleaner = MakeCleaner(named);
+  ReadParams(named.params, kCleaningPath + "plan.", *cleaner, {"planner"});
+  dirt.cleaner = {named.name, ValuesOf(*cleaner)};
   dirt.cleaner_mark = named.mark;
-  dirt.cleaner = MakeCleaner(named);
-  ReadParams(named.params, kCleaningPath + "plan.", *dirt.cleaner, {"planner"});
 }
 
 double FloorArea(const HazardMap& map) {
@@ -147,8 +147,8 @@ ConfigNode WriteDirt(const FloorDirt& dirt) {
   ConfigNode node = WithParams(ConfigNode::Map(), dirt.params);
   ConfigNode cleaning = WithParams(ConfigNode::Map(), dirt.cleaning);
   ConfigNode plan = ConfigNode::Map();
-  plan.Add("planner", ConfigNode::Scalar(dirt.cleaner_name, true));
-  WriteParams(*dirt.cleaner, plan);
+  plan.Add("planner", ConfigNode::Scalar(dirt.cleaner.name, true));
+  WriteValues(dirt.cleaner.params, plan);
   cleaning.Add("plan", std::move(plan));
   node.Add("cleaning", std::move(cleaning));
   return node;

@@ -35,9 +35,8 @@ struct FloorDirt {
   // Before the robot comes, one with the same base has cleaned the floor, by a plan of its own from
   // the same start.
   CleaningRounds cleaning;
-  std::string cleaner_name;
-  SourceMark cleaner_mark;           // where it is named
-  std::unique_ptr<Planner> cleaner;  // covers floor
+  PluginSpec cleaner;       // a planner that covers floor
+  SourceMark cleaner_mark;  // where it is named
 };
 
 // Throws InputError, also where more lies on this floor than the field holds.

@@ -30,11 +30,6 @@ ConfigNode Named(const char* key, const std::string& text) {
   return node;
 }
 
-ConfigNode WithPlugin(ConfigNode node, Configurable& plugin) {
-  WriteParams(plugin, node);
-  return node;
-}
-
 ConfigNode Robot(const Scenario& s, const fs::path& folder) {
   const bool bundled =
       std::ranges::any_of(Robots(), [&](const auto& r) { return r.name == s.spec.robot_name; });
@@ -58,17 +53,22 @@ ConfigNode Goal(const Vec2& goal) {
   return node;
 }
 
-ConfigNode SensorsOf(const Scenario& s) {
+ConfigNode Plugin(const PluginSpec& plugin) {
+  return WithValues(Named("name", plugin.name), plugin.params);
+}
+
+ConfigNode SensorsOf(const ScenarioSpec& spec) {
   ConfigNode node = ConfigNode::Map();
-  for (const NamedSensor& sensor : s.agents.sensors)
-    if (!sensor.implied) node.Add(sensor.name, WithPlugin(ConfigNode::Map(), *sensor.sensor));
+  for (const SensorSpec& sensor : spec.sensors)
+    if (!sensor.implied)
+      node.Add(sensor.plugin.name, WithValues(ConfigNode::Map(), sensor.plugin.params));
   return node;
 }
 
-ConfigNode Failures(const Scenario& s) {
+ConfigNode Failures(const ScenarioSpec& spec) {
   ConfigNode node = ConfigNode::Map();
-  for (const auto& [name, detector] : s.agents.detectors)
-    node.Add(name, WithPlugin(ConfigNode::Map(), *detector));
+  for (const auto& [name, params] : spec.detectors)
+    node.Add(name, WithValues(ConfigNode::Map(), params));
   return node;
 }
 
@@ -94,15 +94,16 @@ std::string NameOr(const fs::path& file, const fs::path& bundled_file, std::stri
 // Its planner with all keys. Where variants have others, which need not know them, those alone that
 // are not as by default.
 ConfigNode PlannerKeys(const Scenario& s, const fs::path& folder) {
-  ConfigNode node = WithPlugin(Named("planner", s.spec.planner_name), *PlannerOf(s));
+  ConfigNode node = WithValues(Named("planner", s.spec.planner_name), s.spec.planner_params);
   if (!s.spec.places_file.empty())
     *node.Find("samples") = Named("file", PathFrom(folder, s.spec.places_file).string());
   // A file of places stands alone; what variants without one have is as by default.
   if (Vary(s, {"plan.samples", "plan.samples.file"})) node.Remove("samples");
   if (!Vary(s, {"plan.planner"})) return node;
   const auto defaults = [&](auto planners) {
-    return WithPlugin(ConfigNode::Map(),
-                      *MakePlugin(planners, s.spec.planner_name, "plan.planner"));
+    ConfigNode usual = ConfigNode::Map();
+    WriteParams(*MakePlugin(planners, s.spec.planner_name, "plan.planner"), usual);
+    return usual;
   };
   const ConfigNode usual =
       s.spec.plan_by == PlanBy::kOnline ? defaults(OnlinePlanners()) : defaults(Planners());
@@ -115,7 +116,7 @@ ConfigNode PlannerKeys(const Scenario& s, const fs::path& folder) {
 
 // Who makes its plan, with all keys.
 ConfigNode Plan(const Scenario& s, const fs::path& folder, const fs::path& made) {
-  if (PlannerOf(s) != nullptr) return PlannerKeys(s, folder);
+  if (IsPlanned(s.spec)) return PlannerKeys(s, folder);
   if (s.spec.plan_command)
     return WritePlanCommand(*s.spec.plan_command, folder, made.empty() ? s.spec.plan_file : made);
   return Named("file", PathFrom(folder, s.spec.plan_file).string());
@@ -220,29 +221,24 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
                                          true));
     root.Add("risk", WithParams(std::move(risk), s.spec.risk));
   }
-  if (stated("controller", robot_varies))
-    root.Add("controller", WithPlugin(Named("name", s.spec.tracker_name), *s.agents.tracker));
-  root.Add("estimator", WithPlugin(Named("name", s.spec.estimator_name), *s.agents.estimator));
-  if (!std::ranges::all_of(s.agents.sensors, &NamedSensor::implied))
-    root.Add("sensors", SensorsOf(s));
+  if (stated("controller", robot_varies)) root.Add("controller", Plugin(s.spec.tracker));
+  root.Add("estimator", Plugin(s.spec.estimator));
+  if (!std::ranges::all_of(s.spec.sensors, &SensorSpec::implied))
+    root.Add("sensors", SensorsOf(s.spec));
   // One without a scan came with `react`, as it is by default; stated, it would ask for a lidar.
-  const auto tells_scan = [](const NamedSensor& named) {
-    return named.sensor->Fills() == Reading::kScan;
-  };
-  if (s.agents.mapper && std::ranges::any_of(s.agents.sensors, tells_scan)) {
-    Mapper mapper = *s.agents.mapper;
-    root.Add("mapper", WithPlugin(ConfigNode::Map(), mapper));
-  }
-  if (s.agents.recovery) root.Add("react", WithParams(ConfigNode::Map(), *s.agents.recovery));
-  if (s.agents.safety) {
+  const auto tells_scan = [](const SensorSpec& sensor) { return sensor.fills == Reading::kScan; };
+  if (s.spec.mapper && std::ranges::any_of(s.spec.sensors, tells_scan))
+    root.Add("mapper", WithValues(ConfigNode::Map(), *s.spec.mapper));
+  if (s.spec.recovery) root.Add("react", WithParams(ConfigNode::Map(), *s.spec.recovery));
+  if (s.spec.safety) {
     root.Add("mission",
              ConfigNode::Scalar(
                  NameOr(s.spec.mission_file, BundledMission(), kBundledMission, folder), true));
-    root.Add("safety", WriteSafety(*s.agents.safety));
+    root.Add("safety", WriteSafety(*s.spec.safety));
   }
   if (!s.world.faults.empty()) root.Add("faults", WriteFaults(s.world.faults));
   if (s.world.dirt) root.Add("dirt", WriteDirt(*s.world.dirt));
-  root.Add("failures", Failures(s));
+  root.Add("failures", Failures(s.spec));
   root = WithParams(std::move(root), s.spec.episode);
   if (stated("battery", robot_varies))
     root.Add("battery", WithParams(ConfigNode::Map(), s.world.robot.spec.battery));

@@ -403,11 +403,6 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
   return scenario.Read(scenario.episode());
 }
 
-Configurable* PlannerOf(const Scenario& s) {
-  if (s.agents.planner) return s.agents.planner.get();
-  return s.agents.online.get();
-}
-
 const PlanCommand* ProgramToAsk(const ScenarioSpec& spec) {
   return spec.plan_command && spec.plan_file.empty() ? &*spec.plan_command : nullptr;
 }

@@ -13,7 +13,6 @@
 
 #include "base/config.h"
 #include "base/input_files.h"
-#include "run/scenario/agents.h"
 #include "run/scenario/matrix.h"
 #include "run/scenario/scenario_spec.h"
 #include "run/scenario/trust.h"
@@ -31,7 +30,6 @@ struct ScenarioText {
 struct Scenario {
   ScenarioSpec spec;
   World world;
-  Agents agents;
   ScenarioText text;
   InputFiles files;  // what it was read from
 };
@@ -122,9 +120,6 @@ class ScenarioFile {
   struct SiteFiles;
   std::shared_ptr<SiteFiles> site_files_;
 };
-
-// Its planner's parameters, whichever kind it is; nullptr: a user's plan.
-Configurable* PlannerOf(const Scenario& scenario);
 
 // The program that is yet to be asked for its plan; nullptr: none is run.
 const PlanCommand* ProgramToAsk(const ScenarioSpec& spec);

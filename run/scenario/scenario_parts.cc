@@ -185,10 +185,10 @@ void ReadSafetyPart(const ConfigNode& root, Scenario& s) {
         "be watched");
   s.spec.mission_file = BundledOrNamed(mission, "mission", kBundledMission, BundledMission(), s);
   const ConfigNode tree = ReadYamlFile(s.spec.mission_file, s.files, "mission");
-  s.agents.safety = ReadSafety(safety, tree);
-  s.agents.safety->helped = s.spec.episode.on_failure == "assist";
+  s.spec.safety = ReadSafety(safety, tree);
+  s.spec.safety->helped = s.spec.episode.on_failure == "assist";
   const HazardMap& map = s.world.site.map;
-  for (const auto& [line, mark, skill] : LinesOf(s.agents.safety->mission, tree)) {
+  for (const auto& [line, mark, skill] : LinesOf(s.spec.safety->mission, tree)) {
     const Cell cell = map.frame.ToCell(line.to_W);
     if (const bool off = !map.frame.Inside(cell); off || map.IsWall(cell))
       throw InputError(mark, "skills." + skill,
@@ -238,19 +238,20 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
   NamedPlugin named = ReadNamed(root, "plan", "planner", "boustrophedon");
   s.spec.planner_name = named.name;
   const std::vector<std::string> online = PluginNames(OnlinePlanners());
-  if (std::ranges::find(online, named.name) != online.end())
-    s.agents.online = MakePlugin(OnlinePlanners(), named.name, "plan.planner", named.mark);
-  else
-    s.agents.planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark, online);
-  s.spec.plan_by = s.agents.online ? PlanBy::kOnline : PlanBy::kPlanner;
-  if (s.agents.planner && s.agents.planner->promises().visits_places)
-    ReadPlacesPart(named.params, s);
-  ReadParams(named.params, "plan.", *PlannerOf(s), {"planner"});
-  if (s.agents.planner) {
-    s.spec.promises = s.agents.planner->promises();
+  const bool plans_ahead = std::ranges::find(online, named.name) == online.end();
+  s.spec.plan_by = plans_ahead ? PlanBy::kPlanner : PlanBy::kOnline;
+  if (plans_ahead) {
+    const auto planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark, online);
+    if (planner->promises().visits_places) ReadPlacesPart(named.params, s);
+    ReadParams(named.params, "plan.", *planner, {"planner"});
+    s.spec.planner_params = ValuesOf(*planner);
+    s.spec.promises = planner->promises();
   } else {
-    s.spec.online = s.agents.online->params();
-    s.spec.draws_on_the_way = s.agents.online->uses_seed();
+    const auto planner = MakePlugin(OnlinePlanners(), named.name, "plan.planner", named.mark);
+    ReadParams(named.params, "plan.", *planner, {"planner"});
+    s.spec.planner_params = ValuesOf(*planner);
+    s.spec.online = planner->params();
+    s.spec.draws_on_the_way = planner->uses_seed();
   }
   return lines;
 }
@@ -350,17 +351,23 @@ void ReadRisk(const ConfigNode& root, Scenario& s) {
 void ReadControl(const ConfigNode& root, Scenario& s) {
   const RobotSpec& robot = s.world.robot.spec;
   const auto drive = MakePlugin(Drives(), robot.drive, "drive", {robot.model_file, 0});
-  const NamedPlugin tracker = ReadNamed(root, "controller", "name", DefaultTracker(robot.drive));
-  s.spec.tracker_name = tracker.name;
-  s.agents.tracker = MakePlugin(Trackers(), tracker.name, "controller", tracker.mark);
-  ReadParams(tracker.params, "controller.", *s.agents.tracker, {"name"});
-  if (!s.agents.tracker->Commands(*drive))
-    throw InputError(tracker.mark, "controller", tracker.name,
+  const NamedPlugin named = ReadNamed(root, "controller", "name", DefaultTracker(robot.drive));
+  const auto tracker = MakePlugin(Trackers(), named.name, "controller", named.mark);
+  ReadParams(named.params, "controller.", *tracker, {"name"});
+  if (!tracker->Commands(*drive))
+    throw InputError(named.mark, "controller", named.name,
                      "cannot command the drive " + robot.drive + " of " + s.spec.robot_name);
-  const NamedPlugin estimator = ReadNamed(root, "estimator", "name", Estimators().front().name);
-  s.spec.estimator_name = estimator.name;
-  s.agents.estimator = MakePlugin(Estimators(), estimator.name, "estimator", estimator.mark);
-  ReadParams(estimator.params, "estimator.", *s.agents.estimator, {"name"});
+  s.spec.tracker = {named.name, ValuesOf(*tracker)};
+}
+
+// Returns what the estimator needs to be told.
+std::vector<Reading> ReadEstimator(const ConfigNode& root, Scenario& s) {
+  const NamedPlugin named = ReadNamed(root, "estimator", "name", Estimators().front().name);
+  const auto estimator = MakePlugin(Estimators(), named.name, "estimator", named.mark);
+  ReadParams(named.params, "estimator.", *estimator, {"name"});
+  s.spec.estimator = {named.name, ValuesOf(*estimator)};
+  s.spec.estimator_draws = estimator->draws();
+  return estimator->Needs();
 }
 
 // For keys that know a robot in the shape in which it starts.
@@ -382,59 +389,64 @@ void CheckMapSize(const ConfigNode& node, const Mapper& mapper, const GridFrame&
 }
 
 // On an unknown floor a robot goes by what it draws, and by what it meets.
-bool PlansByItsMap(const Scenario& s) {
-  return s.spec.plan_by == PlanBy::kOnline && s.spec.episode.drive == "physics";
+bool PlansByItsMap(const ScenarioSpec& spec) {
+  return spec.plan_by == PlanBy::kOnline && spec.episode.drive == "physics";
 }
 
 // The mapper keeps what was met, so that a robot which reacts has one.
 void ReadReaction(const ConfigNode& root, Scenario& s) {
-  if (PlansByItsMap(s)) {
+  if (PlansByItsMap(s.spec)) {
     constexpr int kMost = 1000;  // reactions: to meet things is how it learns of them
-    s.agents.recovery.emplace().most = kMost;
+    s.spec.recovery.emplace().most = kMost;
   }
   if (const ConfigNode* node = Written(root, "react")) {
-    if (!s.agents.recovery) s.agents.recovery.emplace();
-    ReadParams(*node, "react.", [&](ParamVisitor& v) { s.agents.recovery->Visit(v); });
+    if (!s.spec.recovery) s.spec.recovery.emplace();
+    ReadParams(*node, "react.", [&](ParamVisitor& v) { s.spec.recovery->Visit(v); });
     RefuseFolding(s, node->mark, "react", "");
   }
-  if (const ConfigNode* node = Written(root, "mapper")) {
-    s.agents.mapper.emplace();
-    ReadParams(*node, "mapper.", *s.agents.mapper);
-    CheckMapSize(*node, *s.agents.mapper, s.world.site.map.frame);
-  } else if (s.agents.recovery) {
-    s.agents.mapper.emplace();
-    if (PlansByItsMap(s))
-      CheckMapSize(*root.Find("plan"), *s.agents.mapper, s.world.site.map.frame);
-  }
+  const ConfigNode* written = Written(root, "mapper");
+  if (written == nullptr && !s.spec.recovery) return;
+  Mapper mapper;
+  if (written != nullptr) ReadParams(*written, "mapper.", mapper);
+  if (written != nullptr || PlansByItsMap(s.spec))
+    CheckMapSize(written != nullptr ? *written : *root.Find("plan"), mapper,
+                 s.world.site.map.frame);
+  s.spec.mapper = ValuesOf(mapper);
 }
 
 // What the scenario's parts need to be told.
-std::vector<Reading> NeededReadings(const ConfigNode& root, const Scenario& s) {
-  std::vector<Reading> needed = s.agents.estimator->Needs();
+std::vector<Reading> NeededReadings(const ConfigNode& root, const ScenarioSpec& spec,
+                                    std::vector<Reading> needed) {
   const auto add = [&needed](const std::vector<Reading>& more) {
     needed.insert(needed.end(), more.begin(), more.end());
   };
   // One that came with `react` does without.
-  if (Written(root, "mapper") || PlansByItsMap(s)) add(Mapper::Needs());
-  if (s.agents.recovery) add(s.agents.recovery->Needs());
-  if (s.agents.safety) add({std::begin(kSupervisionNeeds), std::end(kSupervisionNeeds)});
+  if (Written(root, "mapper") || PlansByItsMap(spec)) add(Mapper::Needs());
+  if (spec.recovery) add(spec.recovery->Needs());
+  if (spec.safety) add({std::begin(kSupervisionNeeds), std::end(kSupervisionNeeds)});
   return needed;
 }
 
-void ReadSensors(const ConfigNode& root, Scenario& s) {
+void ReadSensors(const ConfigNode& root, const std::vector<Reading>& estimator_needs, Scenario& s) {
   const ConfigNode written = PluginMap(root, "sensors", "sensors", PluginNames(Sensors()));
-  s.agents.sensors = CarriedSensors(Sensors(), written, NeededReadings(root, s));
-  if (!s.agents.safety) return;
   std::vector<Reading> told;
-  for (const NamedSensor& named : s.agents.sensors) told.push_back(named.sensor->Fills());
-  KeepMonitorsOf(told, *s.agents.safety);
+  for (const NamedSensor& named :
+       CarriedSensors(Sensors(), written, NeededReadings(root, s.spec, estimator_needs))) {
+    told.push_back(named.sensor->Fills());
+    s.spec.sensors.push_back({{named.name, ValuesOf(*named.sensor)},
+                              named.sensor->Fills(),
+                              named.sensor->draws(),
+                              named.implied});
+  }
+  if (s.spec.safety) KeepMonitorsOf(told, *s.spec.safety);
 }
 
 void ReadFaultsPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = Written(root, "faults");
   if (node == nullptr) return;
-  s.world.faults = ReadFaults(*node, {s.world.robot.spec, SensorNames(s.agents.sensors)},
-                              s.world.physics.timestep_s);
+  std::vector<std::string> sensors;
+  for (const SensorSpec& sensor : s.spec.sensors) sensors.push_back(sensor.plugin.name);
+  s.world.faults = ReadFaults(*node, {s.world.robot.spec, sensors}, s.world.physics.timestep_s);
 }
 
 void ReadDirtPart(const ConfigNode& root, Scenario& s) {
@@ -449,7 +461,7 @@ void ReadFailures(const ConfigNode& root, Scenario& s) {
     const std::string name(entry.name);
     if (const ConfigNode* params = written.Find(name))
       ReadParams(*params, "failures." + name + ".", *detector);
-    s.agents.detectors.push_back({name, std::move(detector)});
+    s.spec.detectors.push_back({name, ValuesOf(*detector)});
   }
   if (s.spec.episode.on_failure == "assist")
     RefuseFolding(s, MarkOf(root, "on_failure"), "on_failure", "assist");
@@ -534,8 +546,9 @@ void ReadParts(const ConfigNode& root, Scenario& s) {
   CheckOnline(root, s);
   ReadRisk(root, s);
   ReadControl(root, s);
+  const std::vector<Reading> estimator_needs = ReadEstimator(root, s);
   ReadReaction(root, s);
-  ReadSensors(root, s);
+  ReadSensors(root, estimator_needs, s);
   ReadFaultsPart(root, s);
   ReadDirtPart(root, s);
   ReadFailures(root, s);

@@ -6,6 +6,10 @@
 
 #include "base/json_schema.h"
 #include "base/name_param.h"
+#include "controllers/estimator.h"
+#include "controllers/mapper.h"
+#include "controllers/tracker.h"
+#include "env/failures/detector.h"
 #include "env/map/site_keys.h"
 #include "run/scenario/named_plugin.h"
 #include "run/scenario/scenario_parts.h"

@@ -10,8 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "base/registry.h"
+#include "controllers/recovery.h"
+#include "controllers/supervision/safety_plan.h"
 #include "env/core/path.h"
 #include "env/scene/robot_model.h"
+#include "env/sensors/sensor.h"
 #include "planners/online/online_planner.h"
 #include "planners/planner.h"
 #include "planners/risk/rate_model.h"
@@ -31,6 +35,13 @@ enum class PlanBy {
   kNobody,  // the mission says where to drive, or whoever steps the episode
 };
 
+struct SensorSpec {
+  PluginSpec plugin;
+  Reading fills{};
+  bool draws = false;
+  bool implied = false;  // not written: another part needs it
+};
+
 struct ScenarioSpec {
   std::filesystem::path file;
   std::string name;  // the key `name`, else the file's stem
@@ -45,6 +56,7 @@ struct ScenarioSpec {
   std::filesystem::path robot_file;
 
   PlanBy plan_by = PlanBy::kFile;
+  ParamValues planner_params;               // of a planner of ours
   PlannerPromises promises;                 // of a planner of known floors
   OnlineParams online;                      // of one of unknown floors
   bool draws_on_the_way = false;            // that one uses its seed
@@ -61,10 +73,25 @@ struct ScenarioSpec {
   std::filesystem::path risk_model_file;  // empty: none
   std::shared_ptr<const RiskModel> risk_model;
 
-  std::string tracker_name, estimator_name;
-  std::filesystem::path mission_file;  // of its supervision; empty: none
+  PluginSpec tracker, estimator;
+  bool estimator_draws = false;
+  std::vector<SensorSpec> sensors;         // those written, and those that a part of it needs
+  std::optional<ParamValues> mapper;       // none: no map is drawn
+  std::optional<RecoveryParams> recovery;  // none: the plan is driven blindly
+  std::filesystem::path mission_file;      // of its supervision; empty: none
+  std::optional<SafetyPlan> safety;        // none: no supervision
+  std::vector<PluginSpec> detectors;
   EpisodeParams episode;
   VideoParams video;
 };
+
+inline PluginSpec PlannerOf(const ScenarioSpec& spec) {
+  return {spec.planner_name, spec.planner_params};
+}
+
+// Whether a planner of ours makes the plan.
+inline bool IsPlanned(const ScenarioSpec& spec) {
+  return spec.plan_by == PlanBy::kPlanner || spec.plan_by == PlanBy::kOnline;
+}
 
 }  // namespace floorproof

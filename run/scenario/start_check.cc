@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "controllers/estimator.h"
+#include "run/scenario/agents.h"
 #include "run/scenario/floors.h"
 #include "run/scenario/scenario_parts.h"
 
@@ -39,13 +41,13 @@ void Check(const ConfigNode& root, Start start) {
 
 }  // namespace
 
-void CheckStarts(const ConfigNode& root, Scenario& s) {
+void CheckStarts(const ConfigNode& root, const Scenario& s) {
   const HazardMap known = KnownFloor(s.world);
   Check(root, [&] {
-    s.agents.estimator->Start(
-        {known, s.world.robot.spec, s.world.start, Stream(0, 0, "estimator")});
+    MakePlugin(Estimators(), s.spec.estimator, "estimator")
+        ->Start({known, s.world.robot.spec, s.world.start, Stream(0, 0, "estimator")});
   });
-  if (std::ranges::all_of(s.agents.sensors, &NamedSensor::implied)) return;
+  if (std::ranges::all_of(s.spec.sensors, &SensorSpec::implied)) return;
   HazardMap bare;
   bare.frame = {1, 1, 1, {}};
   bare.occupancy = Grid<CellState>(1, 1);
@@ -54,7 +56,7 @@ void CheckStarts(const ConfigNode& root, Scenario& s) {
   ForwardEngine(scene.model.get(), data.get());
   Observation sensed;
   const std::vector<double> motor_nm(static_cast<std::size_t>(scene.model->nu));
-  for (const auto& [name, sensor, implied] : s.agents.sensors)
+  for (const auto& [name, sensor, implied] : MakeSensors(s.spec))
     Check(root, [&, &name = name, &sensor = sensor] {
       sensor->Start({scene, bare, s.world.robot.spec, 1.0 / s.spec.episode.control_hz, motor_nm},
                     data.get(), {}, Stream(0, 0, name), sensed);

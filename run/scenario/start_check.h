@@ -10,6 +10,6 @@ namespace floorproof {
 // Starts the scenario's sensors on a bare floor, and its estimator where the robot will stand. (An
 // episode starts them again.) Throws what they refuse, as an InputError that says where the key is
 // written in `root`.
-void CheckStarts(const ConfigNode& root, Scenario& s);
+void CheckStarts(const ConfigNode& root, const Scenario& s);
 
 }  // namespace floorproof

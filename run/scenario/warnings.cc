@@ -40,8 +40,8 @@ void WarnOfSpeeds(const Scenario& s, std::vector<std::string>& lines) {
         fmt::format("{}, {} of {} from number {} on: speed_mps of up to", s.spec.plan_file.string(),
                     fast, CountText(s.spec.user_plan.size(), "waypoint"), first),
         asked_mps);
-  if (s.agents.recovery && s.agents.recovery->back_off_mps > most_mps)
-    capped("react.back_off_mps", s.agents.recovery->back_off_mps);
+  if (s.spec.recovery && s.spec.recovery->back_off_mps > most_mps)
+    capped("react.back_off_mps", s.spec.recovery->back_off_mps);
 }
 
 void WarnOfLimits(const Scenario& s, std::vector<std::string>& lines) {

@@ -20,7 +20,7 @@ struct World {
   Pose2 start;
   std::optional<Vec2> goal;
   std::vector<ScheduledFault> faults;  // what breaks on the robot
-  std::optional<FloorDirt> dirt;       // none: nobody asks for it
+  std::optional<FloorDirt> dirt;       // none: not asked for
 };
 
 }  // namespace floorproof

@@ -61,7 +61,7 @@ SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root) {
     if (keys != nullptr && IsNone(*keys)) continue;
     auto monitor = MakePlugin(Monitors(), name, "monitors");
     if (keys != nullptr) ReadParams(*keys, "safety.monitors." + name + ".", *monitor);
-    plan.monitors.push_back({name, std::move(monitor)});
+    plan.monitors.push_back({name, ValuesOf(*monitor)});
   }
   return plan;
 }
@@ -80,9 +80,10 @@ ConfigNode SafetySchema() {
 
 void KeepMonitorsOf(std::span<const Reading> told, SafetyPlan& plan) {
   const auto hears = [&](Reading r) { return std::ranges::find(told, r) != told.end(); };
-  std::erase_if(plan.monitors, [&](const NamedMonitor& named) {
-    return (named.monitor->by_estimate() && hears(Reading::kTruth)) ||
-           !std::ranges::all_of(named.monitor->Needs(), hears);
+  std::erase_if(plan.monitors, [&](const PluginSpec& spec) {
+    const auto monitor = MakePlugin(Monitors(), spec.name, "monitors");
+    return (monitor->by_estimate() && hears(Reading::kTruth)) ||
+           !std::ranges::all_of(monitor->Needs(), hears);
   });
 }
 
@@ -91,13 +92,10 @@ ConfigNode WriteSafety(const SafetyPlan& plan) {
   ConfigNode node = WithParams(ConfigNode::Map(), reaction);
   ConfigNode monitors = ConfigNode::Map();
   const auto is_kept = [&](const std::string& name) {
-    return std::ranges::find(plan.monitors, name, &NamedMonitor::name) != plan.monitors.end();
+    return std::ranges::find(plan.monitors, name, &PluginSpec::name) != plan.monitors.end();
   };
-  for (const NamedMonitor& named : plan.monitors) {
-    ConfigNode keys = ConfigNode::Map();
-    WriteParams(*named.monitor, keys);
-    monitors.Add(named.name, std::move(keys));
-  }
+  for (const PluginSpec& spec : plan.monitors)
+    monitors.Add(spec.name, WithValues(ConfigNode::Map(), spec.params));
   for (const std::string& name : MonitorsOf(plan.mission))
     if (!is_kept(name)) monitors.Add(name, ConfigNode::Scalar("none"));
   node.Add("monitors", std::move(monitors));

@@ -82,6 +82,28 @@ TEST(Params, WrittenParametersReadBackTheSame) {
   EXPECT_FALSE(b.width.has_value());
 }
 
+TEST(Params, AsDataTheyMakeTheSameAgain) {
+  Dut dut;
+  dut.speed = 0.1 + 0.2;
+  dut.count = 7;
+  dut.fast = true;
+  dut.kind = "bee";
+  dut.width = 0.25;
+  dut.inner = -1e-300;
+  const ParamValues values = ValuesOf(dut);
+  Dut again;
+  EXPECT_NE(ValuesOf(again), values);
+  SetValues(values, again);
+  EXPECT_EQ(ValuesOf(again), values);
+  ConfigNode written = ConfigNode::Map();
+  WriteParams(dut, written);
+  EXPECT_EQ(WriteYaml(WithValues(ConfigNode::Map(), values)), WriteYaml(written));
+  // One that is not given, or is of another type, stays as it is.
+  SetValues({{"count", 2.5}, {"group.inner", 3.0}}, again);
+  EXPECT_EQ(again.count, 7);
+  EXPECT_EQ(again.inner, 3);
+}
+
 TEST(Params, EachParameterIsDocumented) {
   Dut dut;
   const auto docs = DocumentParams(dut);

@@ -103,7 +103,8 @@ TEST_P(GlobalStart, IsFoundAnywhereOnTheFloor) {
     const PlanResult plan = MakePlan(scenario);
     const Scene scene = BuildScene(scenario.world.site.map, scenario.world.robot,
                                    scenario.world.physics, scenario.world.start);
-    RunEpisode(scenario, scene, plan, &listener);
+    Agents agents = MakeAgents(scenario.spec);
+    RunEpisode(scenario, agents, scene, plan, &listener);
     found += listener.error_m() < kNear_m;
   }
   EXPECT_GE(found, kSeeds - 1) << "of " << kSeeds;

@@ -55,7 +55,8 @@ TEST_P(SeamsOnRealMaps, AreNotFelt) {
     if (heave == &dut) {
       ASSERT_GT(scene.num_floor_geoms, 10) << "there are seams to cross";
     }
-    const EpisodeRecord record = RunEpisode(scenario, scene, plan, heave);
+    Agents agents = MakeAgents(scenario.spec);
+    const EpisodeRecord record = RunEpisode(scenario, agents, scene, plan, heave);
     EXPECT_NE(record.outcome, Outcome::kError) << record.message;
     EXPECT_TRUE(record.events.empty());
     EXPECT_GT(record.metrics.path_length_m, 10);

@@ -13,9 +13,9 @@ namespace {
 class SafetyTimelineTest : public ::testing::Test {
  protected:
   SafetyTimelineTest() {
-    scenario_.agents.safety.emplace();
-    scenario_.agents.safety->mission.name = "m";
-    scenario_.agents.safety->mission.nodes.emplace_back().name = "m";
+    scenario_.spec.safety.emplace();
+    scenario_.spec.safety->mission.name = "m";
+    scenario_.spec.safety->mission.nodes.emplace_back().name = "m";
     record_.outcome = Outcome::kSuccess;
     record_.metrics.duration_s = 100;
     record_.speed_shares = {{0, 1}, {20, 0}, {30, 0.5}};

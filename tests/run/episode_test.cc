@@ -25,6 +25,16 @@ TEST_F(EpisodeTest, TheSameSeedGivesTheSameBytes) {
   EXPECT_EQ(first.passes.cells, second.passes.cells);
 }
 
+// Plug-ins with a state, and noise that is drawn.
+TEST_F(EpisodeTest, OneScenarioDrivenTwiceGivesTheSameBytes) {
+  const Scenario s = Read(RoomScenario(
+      "",
+      "estimator: mcl\nsensors: {lidar: {noise_m: 0.02}, encoders: {noise: 0.02}}\nmapper: {}\n"));
+  const EpisodeRecord first = Drive(s), second = Drive(s);
+  EXPECT_EQ(ResultJson(s, first).dump(), ResultJson(s, second).dump());
+  EXPECT_EQ(TraceCsv(first, {}), TraceCsv(second, {}));
+}
+
 TEST_F(EpisodeTest, ACleanDriveEndsAtTheLastWaypoint) {
   const EpisodeRecord dut = Drive(Read(RoomScenario("")));
   EXPECT_EQ(dut.outcome, Outcome::kSuccess);
@@ -43,10 +53,10 @@ TEST_F(EpisodeTest, EachDetectorHasItsOwnMargin) {
     void Start(const EpisodeContext&) override { margin_ = 1234; }
     bool Update(const Sample&) override { return false; }
   };
-  Scenario scenario = Read(RoomScenario(""));
-  scenario.agents.detectors.push_back({"content", std::make_unique<Content>()});
-  const Execution dut = Execute(scenario);
-  const auto margins = ResultJson(scenario, dut.record).at("margins");
+  const Scenario scenario = Read(RoomScenario(""));
+  Agents agents = MakeAgents(scenario.spec);
+  agents.detectors.push_back({"content", std::make_unique<Content>()});
+  const auto margins = ResultJson(scenario, DriveWith(scenario, agents)).at("margins");
   EXPECT_EQ(margins.size(), Detectors().size() + 1);
   EXPECT_EQ(margins.at("content"), 1234);
   EXPECT_LT(margins.at("stuck"), 10);

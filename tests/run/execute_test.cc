@@ -105,7 +105,8 @@ TEST_F(ExecuteTest, TheLoopRunsOnAnyPlant) {
   Scenario scenario = Read(RoomScenario(""));
   const PlanResult plan = MakePlan(scenario);
   IdealPlant plant(scenario.world.physics.timestep_s);
-  const EpisodeRecord ideal = RunEpisode(scenario, plant, nullptr, plan, nullptr);
+  Agents agents = MakeAgents(scenario.spec);
+  const EpisodeRecord ideal = RunEpisode(scenario, agents, plant, nullptr, plan, nullptr);
   EXPECT_EQ(ideal.outcome, Outcome::kSuccess) << ideal.message;
   EXPECT_THAT(ideal.events, IsEmpty());
   EXPECT_NEAR(ideal.metrics.path_length_m, Length(plan.path), 0.05 * Length(plan.path));
@@ -119,7 +120,8 @@ TEST_F(ExecuteTest, APlantThatBreaksIsAnError) {
   const PlanResult plan = MakePlan(scenario);
   IdealPlant plant(scenario.world.physics.timestep_s);
   plant.breaks_s = 1;
-  const EpisodeRecord dut = RunEpisode(scenario, plant, nullptr, plan, nullptr);
+  Agents agents = MakeAgents(scenario.spec);
+  const EpisodeRecord dut = RunEpisode(scenario, agents, plant, nullptr, plan, nullptr);
   EXPECT_EQ(dut.outcome, Outcome::kError);
   EXPECT_EQ(dut.message, "its belt broke");
   EXPECT_NEAR(dut.metrics.duration_s, 1, 0.01);

@@ -303,7 +303,7 @@ TEST_F(FloorAuditTest, TheResolvedScenarioReadsBackAsTheSame) {
   ASSERT_TRUE(again.world.dirt);
   EXPECT_EQ(again.world.dirt->params.laid.density_per_m2, 5000);
   EXPECT_EQ(again.world.dirt->params.sampling.tape.side_m, 0.03);
-  EXPECT_EQ(again.world.dirt->cleaner_name, "spiral");
+  EXPECT_EQ(again.world.dirt->cleaner.name, "spiral");
   EXPECT_EQ(again.world.dirt->cleaning.rounds, 2);
   EXPECT_EQ(again.world.dirt->cleaning.brush.push_m, 0.2);
   EXPECT_EQ(ResolvedScenario(again, folder_), resolved);

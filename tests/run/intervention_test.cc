@@ -233,10 +233,11 @@ class Witness : public Detector {
 // Whatever happens to a robot that waits is no failure of its own.
 TEST_F(AssistTest, NoDetectorIsAskedInBetweenAndAllStartAfresh) {
   Tumbler tumbler([](const EpisodeView& now) { return now.sample.t_s > 25; });
-  Scenario scenario = Read(RoomScenario(Barrier(3), kAssist));
+  const Scenario scenario = Read(RoomScenario(Barrier(3), kAssist));
   Asked asked;
-  scenario.agents.detectors.push_back({"witness", std::make_unique<Witness>(asked)});
-  const EpisodeRecord dut = Drive(std::move(scenario), &tumbler);
+  Agents agents = MakeAgents(scenario.spec);
+  agents.detectors.push_back({"witness", std::make_unique<Witness>(asked)});
+  const EpisodeRecord dut = DriveWith(scenario, agents, &tumbler);
   ASSERT_THAT(dut.events, SizeIs(1));
   ASSERT_THAT(dut.interventions, SizeIs(1));
   ASSERT_LT(dut.events[0].t_s, 25);

@@ -112,11 +112,10 @@ TEST_F(RareTest, ACampaignDoesNotJudgeAGateThatIsNotItsOwn) {
 }
 
 TEST_F(RareTest, AModeThatNoDetectorMeasuresIsRefused) {
-  Scenario scenario = File().Read(std::nullopt);
-  std::erase_if(scenario.agents.detectors,
-                [](const NamedDetector& d) { return d.name == "stuck"; });
-  EXPECT_NO_THROW(RareScore("veer_off", scenario.agents.detectors));
-  EXPECT_THROW(RareScore("stuck", scenario.agents.detectors), InputError);
+  std::vector<NamedDetector> detectors = MakeDetectors(File().Read(std::nullopt).spec);
+  std::erase_if(detectors, [](const NamedDetector& d) { return d.name == "stuck"; });
+  EXPECT_NO_THROW(RareScore("veer_off", detectors));
+  EXPECT_THROW(RareScore("stuck", detectors), InputError);
 }
 
 // Ordinary rows: the mode's own margin leads, ties go by the way lost.
@@ -131,7 +130,7 @@ TEST_F(RareTest, TheScoreIsTheModesMargin) {
   set(&Metrics::bounce_back_margin, 0.9);
   set(&Metrics::way_lost_m, 0.02);
   const auto of = [&](const char* mode) {
-    return RareScore(mode, scenario.agents.detectors).Of(row);
+    return RareScore(mode, MakeDetectors(scenario.spec)).Of(row);
   };
   EXPECT_EQ(of("veer_off").score, 0.7);
   EXPECT_EQ(of("stuck").score, 1);
@@ -178,7 +177,7 @@ class RareTrialsTest : public RareTest {
         : file(scenario),
           base(file.Read(std::nullopt)),
           coordinates(file, base),
-          score("veer_off", base.agents.detectors),
+          score("veer_off", MakeDetectors(base.spec)),
           maker(file),
           store(fs::exists(db) ? Reopened(db) : CampaignStore::Create(db, DescribeCampaign(file))),
           trials(maker, coordinates, score, store, jobs,

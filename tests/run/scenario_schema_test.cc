@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "base/json_schema.h"
+#include "controllers/estimator.h"
+#include "controllers/tracker.h"
 #include "env/scene/models_folder.h"
 #include "run/campaign/campaign_gate.h"
 #include "run/scenario/scenario.h"

@@ -19,10 +19,18 @@ class ScenarioTest : public OwnFolderTest {
   Scenario Read(const std::string& text, const std::vector<Override>& overrides = {}) const {
     return ReadScenario(Save("scenario.yaml", text), overrides, Trust::kFull);
   }
-  static EpisodeRecord Drive(Scenario scenario, EpisodeObserver* observer = nullptr) {
+  static EpisodeRecord Drive(const Scenario& scenario, EpisodeObserver* observer = nullptr) {
     const Execution execution = Execute(scenario, observer);
     EXPECT_EQ(execution.plan.status, PlanStatus::kSuccess) << execution.plan.message;
     return execution.record;
+  }
+  // With agents of the test's own among them.
+  static EpisodeRecord DriveWith(const Scenario& s, Agents& agents,
+                                 EpisodeObserver* observer = nullptr) {
+    const PlanResult plan = MakePlan(s);
+    return RunEpisode(s, agents,
+                      BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start),
+                      plan, observer);
   }
 };
 

@@ -29,17 +29,17 @@ class SensingTest : public ScenarioTest {
 
   static std::vector<std::string> Carried(const Scenario& s) {
     std::vector<std::string> names;
-    for (const NamedSensor& sensor : s.agents.sensors) names.push_back(sensor.name);
+    for (const SensorSpec& sensor : s.spec.sensors) names.push_back(sensor.plugin.name);
     return names;
   }
   // A parameter of a plug-in, as it is written.
-  static std::string Value(Configurable& plugin, const char* key) {
-    ConfigNode node = ConfigNode::Map();
-    WriteParams(plugin, node);
-    return node.Find(key)->scalar;
+  static std::string Value(const PluginSpec& plugin, const char* key) {
+    return WithValues(ConfigNode::Map(), plugin.params).Find(key)->scalar;
   }
-  static Sensor& SensorOf(const Scenario& s, const std::string& name) {
-    return *std::ranges::find(s.agents.sensors, name, &NamedSensor::name)->sensor;
+  static const PluginSpec& SensorOf(const Scenario& s, const std::string& name) {
+    return std::ranges::find(s.spec.sensors, name,
+                             [](const SensorSpec& sensor) { return sensor.plugin.name; })
+        ->plugin;
   }
   // The room with these keys, driven.
   EpisodeRecord DriveRoom(const std::string& keys, const std::vector<Override>& overrides = {}) {
@@ -110,16 +110,16 @@ TEST_F(SensingTest, OfEachReadingThereIsOneSensor) {
 
 TEST_F(SensingTest, WhoReactsKeepsWhatItMet) {
   const Scenario dut = Read(RoomScenario("", "react: {}\n"));
-  EXPECT_TRUE(dut.agents.recovery);
-  EXPECT_TRUE(dut.agents.mapper);
+  EXPECT_TRUE(dut.spec.recovery);
+  EXPECT_TRUE(dut.spec.mapper);
 }
 
 TEST_F(SensingTest, WithoutTheirKeysThereIsNone) {
   const Scenario dut = Read(RoomScenario(""));
-  EXPECT_EQ(dut.spec.estimator_name, "truth");
+  EXPECT_EQ(dut.spec.estimator.name, "truth");
   EXPECT_THAT(Carried(dut), ElementsAre("truth")) << "which its estimator goes by";
-  EXPECT_FALSE(dut.agents.mapper);
-  EXPECT_FALSE(dut.agents.recovery);
+  EXPECT_FALSE(dut.spec.mapper);
+  EXPECT_FALSE(dut.spec.recovery);
   const std::string resolved = ResolvedScenario(dut, folder_);
   for (const char* key : {"\nsensors:", "\nmapper:", "\nreact:"})
     EXPECT_THAT(resolved, Not(HasSubstr(key)));
@@ -183,7 +183,7 @@ TEST_F(SensingTest, ErrorsAreDrawnAnewInEachEpisode) {
     ASSERT_EQ(s.spec.drawn.size(), 4u);
     EXPECT_THAT(Carried(s), ElementsAre("lidar", "encoders", "imu"));
     const std::vector<std::string> values = {
-        Value(*s.agents.estimator, "start_error_x_m"), Value(SensorOf(s, "encoders"), "bias"),
+        Value(s.spec.estimator, "start_error_x_m"), Value(SensorOf(s, "encoders"), "bias"),
         Value(SensorOf(s, "encoders"), "noise"), Value(SensorOf(s, "lidar"), "noise_m")};
     for (std::size_t i = 0; i < values.size(); ++i) {
       EXPECT_EQ(values[i], s.spec.drawn[i].second.scalar) << s.spec.drawn[i].first;

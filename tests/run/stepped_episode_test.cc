@@ -28,13 +28,18 @@ class SteppedEpisodeTest : public ScenarioTest {
  protected:
   SteppedEpisodeTest() { Save("plan.csv", "x_m,y_m\n1.5,2.5\n3,2.5\n3,3.5\n1.5,3.5\n"); }
 
+  static Agents DrivenBy(const Scenario& s, const BodyTwist& twist) {
+    Agents agents = MakeAgents(s.spec);
+    agents.tracker = std::make_unique<Constant>(twist);
+    return agents;
+  }
   // Driven freely with this twist for so long, or until it ends.
-  EpisodeRecord GoFreely(Scenario& s, const BodyTwist& twist, double for_s) const {
-    s.agents.tracker = std::make_unique<Constant>(twist);
+  EpisodeRecord GoFreely(const Scenario& s, const BodyTwist& twist, double for_s) const {
     PlanResult plan = MakePlan(s);
     plan.path.resize(1);
     const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
-    SteppedEpisode dut(s, scene, plan, std::make_unique<FreeNavigator>(s.world.start));
+    SteppedEpisode dut(s, DrivenBy(s, twist), scene, plan,
+                       std::make_unique<FreeNavigator>(s.world.start));
     std::optional<Outcome> ended;
     while (!ended && dut.view().sample.t_s < for_s) ended = dut.Advance();
     return dut.Finish(ended.value_or(Outcome::kInterrupted));
@@ -48,7 +53,7 @@ TEST_F(SteppedEpisodeTest, StepsGiveTheBytesOfTheWholeDrive) {
     const EpisodeRecord expected = Execute(whole).record;
     const PlanResult plan = MakePlan(s);
     const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
-    SteppedEpisode dut(s, scene, plan);
+    SteppedEpisode dut(s, MakeAgents(s.spec), scene, plan);
     std::optional<Outcome> ended;
     while (!ended) ended = dut.Advance();
     EXPECT_EQ(*ended, Outcome::kSuccess);
@@ -62,7 +67,7 @@ TEST_F(SteppedEpisodeTest, StepsGiveTheBytesOfTheWholeDrive) {
 // Circles without end are no failure where nobody says where to go: nothing is off a way that is
 // not there, and who drives gets on.
 TEST_F(SteppedEpisodeTest, AFreeRobotIsOffNothingAndGetsOnByDriving) {
-  Scenario s = Read(RoomScenario(""));
+  const Scenario s = Read(RoomScenario(""));
   const EpisodeRecord dut = GoFreely(s, {0.25, 0, 0.8}, 30);
   EXPECT_THAT(dut.events, ::testing::IsEmpty());
   EXPECT_EQ(dut.metrics.max_cross_track_m, 0);
@@ -72,7 +77,7 @@ TEST_F(SteppedEpisodeTest, AFreeRobotIsOffNothingAndGetsOnByDriving) {
 
 // 2 m from the wall, and on into it.
 TEST_F(SteppedEpisodeTest, AFreeRobotThatPushesAWallIsStuck) {
-  Scenario s = Read(RoomScenario(""));
+  const Scenario s = Read(RoomScenario(""));
   const EpisodeRecord dut = GoFreely(s, {0, 0.25, 0}, 60);
   ASSERT_EQ(dut.events.size(), 1u);
   EXPECT_EQ(dut.events[0].mode, FailureMode::kStuck);
@@ -81,7 +86,7 @@ TEST_F(SteppedEpisodeTest, AFreeRobotThatPushesAWallIsStuck) {
 }
 
 TEST_F(SteppedEpisodeTest, AFreeDriveEndsWhereEnoughIsCovered) {
-  Scenario s = Read(RoomScenario("", "success: {stop_at_coverage: 0.03}\n"));
+  const Scenario s = Read(RoomScenario("", "success: {stop_at_coverage: 0.03}\n"));
   const EpisodeRecord dut = GoFreely(s, {0.25, 0, 0}, 60);
   EXPECT_EQ(dut.outcome, Outcome::kSuccess);
   EXPECT_NEAR(dut.metrics.coverage, 0.03, 0.002);
@@ -89,11 +94,11 @@ TEST_F(SteppedEpisodeTest, AFreeDriveEndsWhereEnoughIsCovered) {
 
 // Whoever commands each period sees no period in which nothing is driven.
 TEST_F(SteppedEpisodeTest, TheTimeLimitEndsThePeriodThatReachesIt) {
-  Scenario s = Read(RoomScenario("", "time_limit_s: 0.5\n"));
-  s.agents.tracker = std::make_unique<Constant>(BodyTwist{0.2, 0, 0});
+  const Scenario s = Read(RoomScenario("", "time_limit_s: 0.5\n"));
   const PlanResult plan = MakePlan(s);
   const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
-  SteppedEpisode dut(s, scene, plan, std::make_unique<FreeNavigator>(s.world.start));
+  SteppedEpisode dut(s, DrivenBy(s, {0.2, 0, 0}), scene, plan,
+                     std::make_unique<FreeNavigator>(s.world.start));
   std::optional<Outcome> ended;
   int periods = 0;
   for (double before_s = 0; !ended; before_s = dut.view().sample.t_s, ++periods) {
@@ -106,11 +111,10 @@ TEST_F(SteppedEpisodeTest, TheTimeLimitEndsThePeriodThatReachesIt) {
 
 // A failure breaks a period off; the record is the same whether or not somebody looks once more.
 TEST_F(SteppedEpisodeTest, AfterItsEndWhatIsSensedIsOfTheEnd) {
-  Scenario s = Read(RoomScenario("", "sensors: {lidar: {rate_hz: 100}}\nmapper: {}\n"));
-  s.agents.tracker = std::make_unique<Constant>(BodyTwist{0.25, 0, 0.6});
+  const Scenario s = Read(RoomScenario("", "sensors: {lidar: {rate_hz: 100}}\nmapper: {}\n"));
   const PlanResult plan = MakePlan(s);
   const Scene scene = BuildScene(s.world.site.map, s.world.robot, s.world.physics, s.world.start);
-  SteppedEpisode dut(s, scene, plan);  // which it leaves
+  SteppedEpisode dut(s, DrivenBy(s, {0.25, 0, 0.6}), scene, plan);  // which it leaves
   std::optional<Outcome> ended;
   while (!ended) ended = dut.Advance();
   ASSERT_EQ(*ended, Outcome::kFailure);

@@ -314,14 +314,14 @@ TEST_F(SupervisedDrive, MonitorsOfWhatItDoesNotCarryAreLeftOut) {
   const auto names = [&](const std::string& more) {
     const Scenario scenario = Read(RoomScenario("", "safety: {}\n" + more));
     std::vector<std::string> kept;
-    for (const NamedMonitor& m : scenario.agents.safety->monitors) kept.push_back(m.name);
+    for (const PluginSpec& m : scenario.spec.safety->monitors) kept.push_back(m.name);
     return kept;
   };
   EXPECT_THAT(names(""), testing::Not(Contains("scan_signal"))) << "no lidar for its sake";
   EXPECT_THAT(names(""), Contains("motor_current"));
   EXPECT_THAT(names("estimator: mcl\n"), Contains("scan_signal"));
-  EXPECT_THAT(Read(RoomScenario("", "safety: {monitors: {tilt: none}}\n")).agents.safety->monitors,
-              testing::Not(Contains(Field(&NamedMonitor::name, "tilt"))));
+  EXPECT_THAT(Read(RoomScenario("", "safety: {monitors: {tilt: none}}\n")).spec.safety->monitors,
+              testing::Not(Contains(Field(&PluginSpec::name, "tilt"))));
 }
 
 TEST_F(SupervisedDrive, BadOnesAreOneLineThatNamesTheRule) {

@@ -32,8 +32,7 @@ class SupervisorTest : public ::testing::Test {
   void Begin(RobotSpec robot, const std::string& mission = kFollow) {
     robot_.emplace(std::move(robot));
     plan_.mission = ReadMission(ParseYaml(mission, "m.yaml"), RobotPrimitiveTypes());
-    for (const std::string& name : MonitorsOf(plan_.mission))
-      plan_.monitors.push_back({name, MakePlugin(Monitors(), name, "monitor")});
+    for (const std::string& name : MonitorsOf(plan_.mission)) plan_.monitors.push_back({name, {}});
     dut_.emplace(plan_, robot_->robot(), robot_->map);
     robot_->scan.angle_rad.assign(10, 0);
   }

@@ -87,7 +87,7 @@ Scenario SuiteDrive::Read(const SuiteRun& run) const {
   return scenario;
 }
 
-void SuiteDrive::Judge(Scenario& scenario, SuiteRun& run) const {
+void SuiteDrive::Judge(const Scenario& scenario, SuiteRun& run) const {
   UntilInterrupted observer;
   const EpisodeRecord record = Execute(scenario, &observer).record;
   if (record.outcome == Outcome::kError)

@@ -29,7 +29,7 @@ class SuiteDrive {
   MethodDrive LayOut(const SuiteRun& run) const;
 
  private:
-  void Judge(Scenario& scenario, SuiteRun& run) const;
+  void Judge(const Scenario& scenario, SuiteRun& run) const;
 
   std::string name_, robot_name_;
   std::unique_ptr<Method> method_;
