@@ -10,6 +10,7 @@
 #include "report/campaign_words.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/campaign/summary_json.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

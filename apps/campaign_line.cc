@@ -9,6 +9,7 @@
 
 #include "base/quantity.h"
 #include "base/usable_cores.h"
+#include "run/scenario/override.h"
 #include "stats/binomial.h"
 
 namespace floorproof {

@@ -9,6 +9,7 @@
 #include "apps/command.h"
 #include "base/progress_line.h"
 #include "run/campaign/drive_campaign.h"
+#include "run/scenario/override.h"
 
 namespace floorproof {
 

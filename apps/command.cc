@@ -7,6 +7,8 @@
 
 #include "base/interrupt.h"
 #include "run/episode/records.h"
+#include "run/scenario/override.h"
+#include "run/scenario/scenario_spec.h"
 
 namespace floorproof {
 namespace fs = std::filesystem;

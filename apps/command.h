@@ -13,8 +13,12 @@
 #include "base/console.h"
 #include "base/exit_status.h"
 #include "run/episode/episode.h"
+#include "run/scenario/override.h"
+#include "run/scenario/trust.h"
 
 namespace floorproof {
+
+struct ScenarioSpec;
 
 struct Globals : Console {
   std::vector<std::string> sets;  // --set key.path=value

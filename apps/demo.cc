@@ -8,6 +8,7 @@
 #include "report/drive_and_film.h"
 #include "report/run_page.h"
 #include "run/episode/records.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

@@ -3,10 +3,14 @@
 
 #include "apps/command.h"
 #include "controllers/drive.h"
+#include "controllers/estimator.h"
 #include "controllers/supervision/robot_primitive.h"
+#include "controllers/tracker.h"
+#include "env/failures/detector.h"
 #include "env/faults/schedule.h"
 #include "env/hazards/hazard_type.h"
 #include "env/sensors/sensor.h"
+#include "planners/online/online_planner.h"
 #include "planners/orders/visit_order.h"
 
 namespace floorproof {

@@ -14,6 +14,7 @@
 #include "report/campaign_words.h"
 #include "report/measure_page.h"
 #include "run/campaign/summary_json.h"
+#include "run/scenario/override.h"
 
 namespace floorproof {
 namespace {

@@ -15,6 +15,7 @@
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
 #include "run/plan_check/plan_check.h"
+#include "run/scenario/scenario_file.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {

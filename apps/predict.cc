@@ -12,6 +12,7 @@
 #include "run/episode/records.h"
 #include "run/plan_check/plan_check.h"
 #include "run/plan_check/prediction.h"
+#include "run/scenario/scenario_file.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {

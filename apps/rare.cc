@@ -9,6 +9,7 @@
 #include "report/rare_films.h"
 #include "report/rare_page.h"
 #include "run/rare/rare_json.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

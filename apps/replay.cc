@@ -8,6 +8,7 @@
 #include "base/input_file.h"
 #include "run/campaign/replay_shelf.h"
 #include "run/episode/records.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

@@ -15,6 +15,7 @@
 #include "env/urdf/urdf_text.h"
 #include "report/robot_picture.h"
 #include "report/robot_report.h"
+#include "run/scenario/override.h"
 
 namespace floorproof {
 namespace {

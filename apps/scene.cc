@@ -11,6 +11,7 @@
 #include "base/interrupt.h"
 #include "base/result_folder.h"
 #include "env/scene/roller_wheels.h"
+#include "run/scenario/scenario_file.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {

@@ -20,6 +20,8 @@
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
 #include "run/episode/make_plan.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

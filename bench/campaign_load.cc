@@ -14,6 +14,8 @@
 #include "run/campaign/campaign_store.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/episode/records.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

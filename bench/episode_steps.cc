@@ -12,6 +12,8 @@
 #include "bench/bare_loop.h"
 #include "env/scene/models_folder.h"
 #include "run/episode/make_plan.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

@@ -18,9 +18,9 @@
 #include "planners/lines/held_yaw.h"
 #include "run/episode/make_navigator.h"
 #include "run/episode/make_plan.h"
-#include "run/scenario/floors.h"
 #include "run/scenario/agents.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/floors.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

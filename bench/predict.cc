@@ -11,6 +11,7 @@
 #include "bench/cpu_time.h"
 #include "run/episode/make_plan.h"
 #include "run/plan_check/prediction.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

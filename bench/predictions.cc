@@ -22,6 +22,7 @@
 #include "run/campaign/drive_campaign.h"
 #include "run/episode/records.h"
 #include "run/scenario/risk_model_file.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

@@ -18,6 +18,7 @@
 #include "run/campaign/campaign_comparison.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/scenario/risk_model_file.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

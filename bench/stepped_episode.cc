@@ -12,6 +12,8 @@
 #include "run/episode/episode.h"
 #include "run/episode/free_navigator.h"
 #include "run/episode/make_plan.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

@@ -8,6 +8,7 @@
 #include "bench/study_figures.h"
 #include "planners/risk/risk_meter.h"
 #include "run/plan_check/prediction.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

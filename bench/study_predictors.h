@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "measure/expert_predictors.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+class ScenarioFile;
 
 // Fitted to training data, the model apart.
 struct FittedPredictors {

@@ -2,7 +2,8 @@
 // A scenario file, beside a small site.yaml and plan.csv that it may name. One that is read must
 // survive being resolved.
 #include "fuzz/read_or_refuse.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 
 namespace {
 

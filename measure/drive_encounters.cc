@@ -6,6 +6,7 @@
 #include "base/quantity.h"
 #include "base/words.h"
 #include "measure/encounter_scenario.h"
+#include "run/scenario/override.h"
 
 namespace floorproof {
 

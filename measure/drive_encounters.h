@@ -7,6 +7,7 @@
 
 #include "base/text_table.h"
 #include "measure/robot_campaign.h"
+#include "run/scenario/override.h"
 
 namespace floorproof {
 

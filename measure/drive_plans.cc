@@ -6,6 +6,7 @@
 #include "measure/fit_carry_over.h"
 #include "measure/plan_floors.h"
 #include "run/plan_check/prediction.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "measure/robot_campaign.h"
 #include "planners/risk/carry_over.h"
+#include "run/scenario/override.h"
 
 namespace floorproof {
 

@@ -2,6 +2,7 @@
 #include "measure/robot_campaign.h"
 
 #include "base/file_output.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 

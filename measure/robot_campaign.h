@@ -9,6 +9,7 @@
 
 #include "env/scene/robot_model.h"
 #include "run/campaign/drive_campaign.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 

@@ -10,6 +10,7 @@
 
 #include "report/replay.h"
 #include "run/campaign/replay_shelf.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 

@@ -6,9 +6,10 @@
 
 #include "base/console.h"
 #include "run/campaign/campaign_store.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+class ScenarioFile;
 
 // The first failing episode of each mode, of all variants: drafts of the seconds around the
 // failure. A film that is there stays.

@@ -24,6 +24,7 @@
 #include "report/verdict.h"
 #include "run/campaign/campaign_store.h"
 #include "run/campaign/replay_shelf.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

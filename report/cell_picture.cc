@@ -9,6 +9,7 @@
 #include "base/quantity.h"
 #include "report/drive_marks.h"
 #include "report/pictures.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -12,6 +12,8 @@
 
 namespace floorproof {
 
+struct Scenario;
+
 // Of each cell of the record's that the map has free, the number of its CellProperty.
 HeatValues CellProperties(const HazardMap& map, const EpisodeRecord& record);
 // How many cells in reach have each; of what is out of reach none.

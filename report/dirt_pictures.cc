@@ -12,6 +12,7 @@
 #include "render/heatmap.h"
 #include "report/pictures.h"
 #include "report/sample_marks.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 namespace {

@@ -10,6 +10,8 @@
 
 namespace floorproof {
 
+struct World;
+
 // In words: how many samples were dirty, and the region's score with its interval.
 std::string AuditText(const World& world, const PlanResult& plan, const FloorAudit& audit);
 

@@ -22,6 +22,7 @@
 #include "run/episode/replay_track.h"
 #include "run/plan_check/plan_check.h"
 #include "run/plan_check/sharp_corners.h"
+#include "run/scenario/scenario.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {

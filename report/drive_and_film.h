@@ -14,6 +14,8 @@
 
 namespace floorproof {
 
+struct Scenario;
+
 struct DriveOptions {
   bool video = false;
   // Of the film: not empty: a draft of the seconds around the first failure of each of these modes.

@@ -11,6 +11,7 @@
 #include "env/core/failure_text.h"
 #include "report/dirt_pictures.h"
 #include "report/pictures.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

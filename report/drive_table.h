@@ -7,6 +7,8 @@
 
 namespace floorproof {
 
+struct Scenario;
+
 // Of a drive that was planned and judged. `drive_s`: the wall time that it took.
 FactTable DriveTable(const Scenario& scenario, const PlanResult& plan, const EpisodeRecord& record,
                      double drive_s);

@@ -15,6 +15,7 @@
 #include "report/pictures.h"
 #include "report/safety_timeline.h"
 #include "report/swept_again.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -14,6 +14,8 @@
 
 namespace floorproof {
 
+struct Scenario;
+
 // video.mp4 and frame_*.png; returns which file that is and how it went, in words. In the
 // scenario's own size and pace and quality; `only_around` not empty: of the seconds around the
 // first event of each of these modes, and small and quick unless the scenario says how good.

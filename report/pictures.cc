@@ -18,6 +18,7 @@
 #include "report/risk_pictures.h"
 #include "report/safety_timeline.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

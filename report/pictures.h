@@ -12,6 +12,9 @@
 
 namespace floorproof {
 
+struct Scenario;
+struct World;
+
 // "ROBOT on SITE", how the titles of an episode's pictures begin.
 std::string PictureTitle(const World& world);
 // The plan's pictures (report/risk_pictures.h); heatmap_visits.png, heatmap_coverage.png,

@@ -9,6 +9,7 @@
 #include "base/quantity.h"
 #include "render/heatmap.h"
 #include "report/pictures.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 namespace {

@@ -8,6 +8,8 @@
 
 namespace floorproof {
 
+struct World;
+
 // The likeliest places to fail are numbered and listed; the floor around each meeting is coloured
 // by the probability that the drive ends there.
 void WritePredictPicture(const World& world, const Prediction& prediction,

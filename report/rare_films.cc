@@ -11,6 +11,7 @@
 #include "report/replay.h"
 #include "run/episode/records.h"
 #include "run/rare/rare_json.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 

@@ -11,6 +11,8 @@
 
 namespace floorproof {
 
+class ScenarioFile;
+
 // Where that of the n-th region, from 1, is written.
 std::filesystem::path LikelyFailureFolder(const std::filesystem::path& search, std::size_t number);
 

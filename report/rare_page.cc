@@ -19,6 +19,7 @@
 #include "report/verdict.h"
 #include "run/episode/json_file.h"
 #include "run/rare/rare_json.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

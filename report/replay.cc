@@ -12,6 +12,7 @@
 #include "run/campaign/episode_maker.h"
 #include "run/campaign/replay_shelf.h"
 #include "run/episode/records.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

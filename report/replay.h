@@ -10,9 +10,15 @@
 #include "report/drive_and_film.h"
 #include "run/campaign/campaign_store.h"
 #include "run/episode/json_file.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/draws.h"
+#include "run/scenario/matrix.h"
+#include "run/scenario/override.h"
+#include "run/scenario/trust.h"
 
 namespace floorproof {
+
+class ScenarioFile;
+struct Scenario;
 
 // result.json, its metrics as this version names them. Throws InputError where it is none.
 JsonValue ReadResult(const std::filesystem::path& file);

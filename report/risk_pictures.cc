@@ -13,6 +13,7 @@
 #include "report/drive_marks.h"
 #include "report/pictures.h"
 #include "run/episode/make_plan.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

@@ -10,8 +10,13 @@
 #include "base/console.h"
 #include "planners/risk/risk_meter.h"
 #include "run/episode/episode.h"
+#include "run/scenario/override.h"
+#include "run/scenario/trust.h"
 
 namespace floorproof {
+
+struct Scenario;
+struct ScenarioSpec;
 
 struct RiskOfPlan {
   std::string label;

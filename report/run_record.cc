@@ -12,7 +12,7 @@
 #include "report/verdict.h"
 #include "run/episode/visits_file.h"
 #include "run/scenario/plan_file.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

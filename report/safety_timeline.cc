@@ -10,6 +10,7 @@
 #include "base/quantity.h"
 #include "base/words.h"
 #include "report/pictures.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

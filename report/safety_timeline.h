@@ -10,6 +10,8 @@
 
 namespace floorproof {
 
+struct Scenario;
+
 Timeline SafetyTimeline(const Scenario& scenario, const EpisodeRecord& record);
 // Into a PNG. Throws as WriteFileWhole does.
 void WriteSafetyTimeline(const Scenario& scenario, const EpisodeRecord& record,

@@ -5,6 +5,7 @@
 
 #include "base/interrupt.h"
 #include "run/episode/records.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 

@@ -8,9 +8,10 @@
 #include "base/result_folder.h"
 #include "planners/planner.h"
 #include "report/risk_pictures.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+struct Scenario;
 
 // Writes scenario.resolved.yaml, plan.csv, plan.json and, where risk is asked for, risk.csv, and
 // the pictures of WritePlanPictures. What the folder, of EpisodeResults, holds of a drive of

@@ -13,6 +13,7 @@
 #include "base/printable.h"
 #include "report/suite_page.h"
 #include "run/episode/records.h"
+#include "run/scenario/override.h"
 #include "stats/demonstration.h"
 
 namespace floorproof {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "report/drive_and_film.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

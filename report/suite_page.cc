@@ -13,6 +13,7 @@
 #include "report/html.h"
 #include "report/html_page.h"
 #include "report/page_drives.h"
+#include "run/scenario/override.h"
 #include "stats/demonstration.h"
 
 namespace floorproof {

@@ -13,6 +13,7 @@
 #include "report/campaign_words.h"
 #include "report/html.h"
 #include "report/rates.h"
+#include "run/scenario/scenario.h"
 #include "stats/outward.h"
 
 namespace floorproof {

@@ -6,9 +6,10 @@
 #include <string_view>
 
 #include "report/page.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+struct Scenario;
 
 // "htetro, risk_coverage plan, staircase hall": what drove, by which plan, where. Of several
 // variants what they have in common; empty where that is nothing.

@@ -10,6 +10,7 @@
 #include "run/campaign/campaign_store.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/campaign/episode_maker.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run/episode/descriptions.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -8,9 +8,10 @@
 #include "env/core/robot_spec.h"
 #include "env/geometry/grid.h"
 #include "python/bindings/host.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+struct Scenario;
 
 nb::tuple PoseTuple(const Pose2& pose);  // x_m, y_m, yaw_rad
 // width, height, cell_m, origin (a pose: the outer lower-left corner of cell (0, 0)).

@@ -19,6 +19,7 @@
 #include "run/episode/encounter_table.h"
 #include "run/episode/execute.h"
 #include "run/episode/records.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 namespace {

@@ -7,9 +7,10 @@
 
 #include "env/core/coverage.h"
 #include "env/known/known_map.h"
-#include "run/scenario/world.h"
 
 namespace floorproof {
+
+struct World;
 
 // values[channel][row][column]: the robot in the middle, its x to the right, its y up. Channels:
 // obstacles (255; 127: not known), floor that it swept, floor that it is to sweep (255). All is

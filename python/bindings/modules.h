@@ -11,6 +11,7 @@
 #include "python/bindings/host.h"
 #include "render/film.h"
 #include "run/episode/episode.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "run/episode/robot_side.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

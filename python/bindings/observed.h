@@ -13,6 +13,8 @@
 
 namespace floorproof {
 
+struct Scenario;
+
 // How finely, and how far ahead.
 struct Outlook {
   int local_cells = 0;

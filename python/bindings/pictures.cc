@@ -14,6 +14,7 @@
 #include "report/risk_pictures.h"
 #include "report/save_plan.h"
 #include "run/episode/records.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenarios and their sites: read, checked, resolved, planned.
-#include "run/scenario/scenario.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,8 @@
 #include "run/episode/records.h"
 #include "run/plan_check/plan_check.h"
 #include "run/plan_check/prediction.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "controllers/drive.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -8,9 +8,11 @@
 #include <string>
 
 #include "env/core/observation.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+struct Scenario;
+struct ScenarioSpec;
 
 struct SpaceBounds {
   std::string robot;

@@ -16,7 +16,9 @@
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
 #include "run/episode/robot_side.h"
+#include "run/scenario/agents.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "run/campaign/episode_maker.h"
 #include "run/campaign/worker_pool.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

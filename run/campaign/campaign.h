@@ -18,9 +18,10 @@
 #include "run/campaign/campaign_store.h"
 #include "run/campaign/replay_shelf.h"
 #include "run/campaign/worker_pool.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+class ScenarioFile;
 
 struct CampaignOptions {
   std::uint64_t begin = 0, end = 0;  // episode ids, half-open

@@ -7,6 +7,8 @@
 #include "base/file_output.h"
 #include "base/quantity.h"
 #include "run/episode/records.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

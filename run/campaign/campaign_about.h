@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "run/campaign/campaign_store.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+class ScenarioFile;
 
 // The scenario resolved, with the SHA-256 of the files of all variants and draws, and the versions
 // of program and engine. Not in it: how many episodes, which of them, and on how many workers.

@@ -12,6 +12,7 @@
 #include "run/campaign/episodes_csv.h"
 #include "run/campaign/summary_json.h"
 #include "run/episode/records.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

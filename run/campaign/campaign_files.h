@@ -10,6 +10,8 @@
 
 namespace floorproof {
 
+class ScenarioFile;
+
 // These, the settings and the list of failing episodes.
 ResultNames CampaignResults();
 

@@ -13,6 +13,8 @@
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
 #include "run/campaign/replay_shelf.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

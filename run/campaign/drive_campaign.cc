@@ -12,6 +12,8 @@
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
 #include "run/scenario/chance.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {

@@ -16,6 +16,8 @@
 
 namespace floorproof {
 
+class ScenarioFile;
+
 struct EpisodeRange {
   std::uint64_t begin = 0, end = 0;  // ids, half-open
 };

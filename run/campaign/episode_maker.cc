@@ -12,6 +12,8 @@
 #include "run/episode/records.h"
 #include "run/episode/replay_track.h"
 #include "run/scenario/plan_file.h"
+#include "run/scenario/scenario.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {
@@ -51,6 +53,11 @@ const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Sc
     last.inputs = inputs;
   }
   return last;
+}
+
+EpisodeMaker::Numbered EpisodeMaker::Of(Job job) const {
+  const auto& variants = file_.variants();
+  return {variants[job % variants.size()], job / variants.size()};
 }
 
 std::string EpisodeMaker::Answer(Job job) {

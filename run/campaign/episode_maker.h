@@ -6,11 +6,16 @@
 #include <map>
 #include <string>
 
+#include "planners/planner.h"
 #include "run/campaign/episode_row.h"
 #include "run/campaign/worker_pool.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/draws.h"
+#include "run/scenario/matrix.h"
 
 namespace floorproof {
+
+class ScenarioFile;
+struct Scenario;
 
 class EpisodeMaker {
  public:
@@ -23,10 +28,7 @@ class EpisodeMaker {
     const Variant& variant;
     std::uint64_t episode;
   };
-  Numbered Of(Job job) const {
-    const auto& variants = file_.variants();
-    return {variants[job % variants.size()], job / variants.size()};
-  }
+  Numbered Of(Job job) const;
   // What a worker answers: the row as a line (episode_row.h), with the wall time it took.
   std::string Answer(Job job);
 

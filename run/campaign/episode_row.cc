@@ -12,6 +12,7 @@
 #include "run/episode/encounter_table.h"
 #include "run/episode/episode_record.h"
 #include "run/episode/records.h"
+#include "run/scenario/scenario_spec.h"
 
 namespace floorproof {
 

@@ -13,6 +13,7 @@
 #include "run/episode/episode_stream.h"
 #include "run/episode/plan_request_files.h"
 #include "run/scenario/plan_file.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -5,9 +5,12 @@
 #include <string>
 
 #include "planners/planner.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/plan_command.h"
 
 namespace floorproof {
+
+struct Scenario;
+struct ScenarioSpec;
 
 struct ProgramAnswer {
   Path path;            // as the program wrote it; empty: it made none

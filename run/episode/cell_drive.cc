@@ -13,6 +13,7 @@
 #include "run/episode/make_plan.h"
 #include "run/episode/time_limit.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -3,9 +3,10 @@
 #pragma once
 
 #include "run/episode/episode.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+struct Scenario;
 
 // The scenario's online planner over the site's cells, on which a cell is free where it touches
 // nothing that the robot must keep off. The robot takes its cruise speed for each step, and turns

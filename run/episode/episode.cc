@@ -28,7 +28,9 @@
 #include "run/episode/recorder.h"
 #include "run/episode/robot_side.h"
 #include "run/episode/time_limit.h"
+#include "run/scenario/agents.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 

@@ -12,12 +12,12 @@
 #include "env/sim/simulation.h"
 #include "planners/planner.h"
 #include "run/episode/episode_record.h"
-#include "run/scenario/agents.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
 
 class RobotSide;
+struct Agents;
+struct Scenario;
 
 // An episode as it stands at a control period.
 struct EpisodeView {

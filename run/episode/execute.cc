@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "run/episode/cell_drive.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

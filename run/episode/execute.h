@@ -10,6 +10,8 @@
 
 namespace floorproof {
 
+struct Scenario;
+
 struct Execution {
   PlanResult plan;
   std::optional<Scene> scene;  // none: there was no plan, or no physics

@@ -9,6 +9,7 @@
 #include "env/audit/brush.h"
 #include "run/episode/episode_stream.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 #include "stats/student.h"
 
 namespace floorproof {

@@ -11,10 +11,11 @@
 #include "env/audit/space_score.h"
 #include "planners/planner.h"
 #include "run/episode/sample_log.h"
-#include "run/scenario/scenario.h"
 #include "stats/interval.h"
 
 namespace floorproof {
+
+struct Scenario;
 
 // The tape's middle, below the robot's sensor.
 Pose2 TapePose(const RobotSpec& robot, const SampleStop& stop);

@@ -8,6 +8,7 @@
 
 #include "env/core/standing.h"
 #include "env/scene/walls.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 namespace {

@@ -18,8 +18,11 @@
 #include "env/sim/plant.h"
 #include "run/episode/episode.h"
 #include "run/episode/robot_side.h"
+#include "run/scenario/scenario_params.h"
 
 namespace floorproof {
+
+struct World;
 
 // The first waypoint from `first` on at which the robot can be set down, and how it then stands;
 // none: no such waypoint. Only on the floor that hangs together with the start: elsewhere the scene

@@ -7,6 +7,8 @@
 #include "run/episode/make_plan.h"
 #include "run/episode/online_navigator.h"
 #include "run/episode/plan_navigator.h"
+#include "run/scenario/scenario_spec.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 namespace {

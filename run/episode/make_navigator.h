@@ -7,9 +7,11 @@
 #include "controllers/navigator.h"
 #include "planners/planner.h"
 #include "run/scenario/scenario_spec.h"
-#include "run/scenario/world.h"
 
 namespace floorproof {
+
+struct ScenarioSpec;
+struct World;
 
 // All outlive it. `online`: of an unknown floor, else nullptr. `plan` was made on `known`; of an
 // unknown floor it is empty.

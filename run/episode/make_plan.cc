@@ -12,6 +12,7 @@
 #include "run/episode/episode_stream.h"
 #include "run/episode/plain_draws.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 

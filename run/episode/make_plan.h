@@ -5,9 +5,11 @@
 #include <cstdint>
 
 #include "planners/planner.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+struct Scenario;
+struct ScenarioSpec;
 
 // The plan of the scenario: its planner's, the user's file's, or that of a program, which is run
 // for it. Who plans gets what is known. Throws InputError where there is no such program.

@@ -6,6 +6,7 @@
 #include "base/params.h"
 #include "base/streams.h"
 #include "run/scenario/draws.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -7,9 +7,10 @@
 
 #include "env/core/encounter.h"
 #include "planners/planner.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+struct Scenario;
 
 struct PlainDraw {
   const char* key;  // of a scenario

@@ -7,6 +7,7 @@
 #include "run/episode/descriptions.h"
 #include "run/episode/plain_draws.h"
 #include "run/scenario/plan_file.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

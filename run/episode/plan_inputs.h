@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "run/scenario/scenario.h"
-
 namespace floorproof {
+
+struct Scenario;
 
 // All that MakePlan reads, as text: the same text, the same plan. The floor's friction is not a
 // planner's to know, unless the robot was measured on several: its limits hang on it. Whether they

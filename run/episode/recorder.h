@@ -10,12 +10,15 @@
 #include <numeric>
 #include <optional>
 
+#include "env/failures/detector.h"
 #include "planners/risk/risk_meter.h"
 #include "run/episode/driven_way.h"
 #include "run/episode/episode.h"
 #include "run/episode/robot_side.h"
 #include "run/episode/sample_log.h"
 #include "run/episode/tool_meter.h"
+#include "run/scenario/scenario_spec.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 

@@ -19,6 +19,8 @@
 #include "run/episode/visits_file.h"
 #include "run/scenario/floors.h"
 #include "run/scenario/plan_file.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -7,9 +7,11 @@
 
 #include "base/result_folder.h"
 #include "run/episode/episode.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/draws.h"
 
 namespace floorproof {
+
+struct Scenario;
 
 // As files and stdout have it: characters beyond ASCII are escaped, bytes that are no UTF-8
 // replaced.

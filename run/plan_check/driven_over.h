@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "planners/planner.h"
-#include "run/scenario/world.h"
 
 namespace floorproof {
+
+struct World;
 
 // A hazard of the site that the robot's outline comes over.
 struct DrivenOver {

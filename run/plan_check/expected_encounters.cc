@@ -12,6 +12,7 @@
 #include "run/episode/time_limit.h"
 #include "run/episode/tool_meter.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -6,9 +6,10 @@
 
 #include "env/core/encounter.h"
 #include "planners/planner.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+struct Scenario;
 
 // The rows that a drive would leave in which nothing goes wrong (docs/results.md): the scenario's
 // tracker leads an IdealRobot along the plan, slowing down where it would, and the same meter looks

@@ -7,6 +7,7 @@
 #include "env/core/driven_floor.h"
 #include "env/scene/driving_power.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 

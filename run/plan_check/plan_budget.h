@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "planners/planner.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+struct Scenario;
 
 struct PlanBudget {
   double time_s = 0;    // the tracker's own estimate: ways, stops, turns, dwells, folding

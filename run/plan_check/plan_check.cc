@@ -15,6 +15,7 @@
 #include "run/plan_check/sharp_corners.h"
 #include "run/plan_check/unheld_dwells.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

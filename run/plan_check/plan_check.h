@@ -17,6 +17,9 @@
 
 namespace floorproof {
 
+struct Scenario;
+struct World;
+
 struct PlanCheck {
   PlanClearance clearance;
   std::vector<DrivenOver> driven_over;

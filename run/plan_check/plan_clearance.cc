@@ -22,6 +22,7 @@
 #include "run/plan_check/obstacles.h"
 #include "run/plan_check/plan_sweep.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 namespace {

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "planners/planner.h"
-#include "run/scenario/world.h"
 
 namespace floorproof {
+
+struct World;
 
 // A place where the plan leads the robot into something.
 struct PlanConflict {

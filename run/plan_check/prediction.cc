@@ -25,6 +25,7 @@
 #include "run/plan_check/driven_over.h"
 #include "run/plan_check/expected_encounters.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 namespace {

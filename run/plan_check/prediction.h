@@ -11,9 +11,12 @@
 
 #include "planners/planner.h"
 #include "planners/risk/survival.h"
-#include "run/scenario/scenario.h"
+#include "run/scenario/matrix.h"
 
 namespace floorproof {
+
+class ScenarioFile;
+struct Scenario;
 
 // A meeting of the plan, as it is expected in the first condition; or its way along walls, or on
 // free floor.

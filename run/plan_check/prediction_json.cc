@@ -9,6 +9,7 @@
 #include "base/file_output.h"
 #include "base/quantity.h"
 #include "run/plan_check/prediction.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

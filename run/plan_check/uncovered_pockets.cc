@@ -17,6 +17,7 @@
 #include "env/geometry/distance.h"
 #include "env/geometry/rasterise.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 namespace {

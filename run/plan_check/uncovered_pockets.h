@@ -8,9 +8,10 @@
 
 #include "env/core/coverage.h"
 #include "planners/planner.h"
-#include "run/scenario/world.h"
 
 namespace floorproof {
+
+struct World;
 
 struct UncoveredPocket {
   enum class Why {

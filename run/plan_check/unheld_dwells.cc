@@ -6,6 +6,7 @@
 
 #include "env/core/standing.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/world.h"
 
 namespace floorproof {
 

@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "planners/planner.h"
-#include "run/scenario/world.h"
 
 namespace floorproof {
+
+struct World;
 
 struct UnheldDwell {
   Vec2 p_W = Vec2::Zero();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "run/scenario/chance.h"
+#include "run/scenario/scenario_file.h"
 #include "stats/rare/rare_estimate.h"
 
 namespace floorproof {

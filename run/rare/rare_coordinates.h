@@ -7,10 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "run/scenario/scenario.h"
+#include "run/scenario/draws.h"
 #include "stats/rare/rare_problem.h"
 
 namespace floorproof {
+
+class ScenarioFile;
+struct Scenario;
 
 class RareCoordinates {
  public:

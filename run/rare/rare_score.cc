@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "run/scenario/scenario.h"
-
 namespace floorproof {
 namespace {
 

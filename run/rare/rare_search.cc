@@ -11,6 +11,9 @@
 #include "run/campaign/campaign_about.h"
 #include "run/episode/records.h"
 #include "run/rare/rare_json.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {

@@ -17,6 +17,8 @@
 
 namespace floorproof {
 
+class ScenarioFile;
+
 struct RareRequest {
   std::string mode = "any_failure";
   RareSettings settings = {};  // its seed is not read: it is the scenario's

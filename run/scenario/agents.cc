@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/scenario/agents.h"
 
+#include "run/scenario/scenario_spec.h"
+
 namespace floorproof {
 
 std::vector<NamedSensor> MakeSensors(const ScenarioSpec& spec) {

@@ -13,9 +13,10 @@
 #include "env/failures/detector.h"
 #include "env/sensors/sensor.h"
 #include "planners/online/online_planner.h"
-#include "run/scenario/scenario_spec.h"
 
 namespace floorproof {
+
+struct ScenarioSpec;
 
 struct Agents {
   std::unique_ptr<OnlinePlanner> online;  // none: the plan is made before the drive

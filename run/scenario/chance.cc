@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "env/map/generate.h"
+#include "run/scenario/scenario_file.h"
 
 namespace floorproof {
 

@@ -2,9 +2,10 @@
 // What chance there is in a scenario: whether its episodes can differ at all.
 #pragma once
 
-#include "run/scenario/scenario.h"
-
 namespace floorproof {
+
+class ScenarioFile;
+struct Scenario;
 
 // Whether anything may come out otherwise in another episode of this scenario, which was read from
 // `file` without an episode: something that `randomise` draws, a floor or a plan of its own, or a

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario written out with every default stated, so that it survives a change of defaults.
+#include "run/scenario/resolved_scenario.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "base/file_output.h"
 #include "env/scene/models_folder.h"
+#include "run/scenario/scenario.h"
 #include "run/scenario/scenario_parts.h"
 #include "run/scenario/written_faults.h"
 #include "run/scenario/written_safety.h"

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario file, read whole: site, robot, plug-ins, limits.
+// One episode of a scenario, read and checked: what it says and the world that it is driven in.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/config.h"
 #include "base/input_files.h"
-#include "run/scenario/matrix.h"
 #include "run/scenario/scenario_spec.h"
-#include "run/scenario/trust.h"
 #include "run/scenario/world.h"
 
 namespace floorproof {
@@ -34,96 +27,6 @@ struct Scenario {
   InputFiles files;  // what it was read from
 };
 
-struct Override {
-  std::string key_path, value;  // --set key.path=value; the value is YAML
-};
-
-// A scenario file with all that was read for it so far, to be read where its files are not.
-struct PackedScenario {
-  std::filesystem::path file;
-  Trust trust = Trust::kNone;
-  std::optional<std::string> text;  // none: it is the file's
-  std::vector<Override> overrides;
-  std::vector<std::pair<std::string, std::string>> inputs;  // name and bytes; no bundled models
-};
-
-// A scenario file in memory, from which the episodes of a campaign are read. Several threads may
-// read at a time; copies share what was read.
-class ScenarioFile {
- public:
-  // Reads the file and applies the overrides (keys below `site.` reach into the site file); what is
-  // set is not drawn. Throws InputError naming file, line, key, value and rule.
-  explicit ScenarioFile(const std::filesystem::path& file,
-                        const std::vector<Override>& overrides = {}, Trust trust = Trust::kNone);
-  // The same of the caller's own text in memory, which is trusted and treated as the content of
-  // `file`: paths in it are relative to that file's folder, messages name it, and it need not be
-  // there.
-  static ScenarioFile FromText(const std::string& text, const std::filesystem::path& file,
-                               const std::vector<Override>& overrides = {});
-  // Of a file that was packed, perhaps on another machine: it reads what was packed, and of what is
-  // not in it the files of this machine. Messages are those of the file that was packed.
-  static ScenarioFile Unpack(const PackedScenario& packed);
-  PackedScenario Pack() const;
-  // One that is no more than looked into, as the files that it names may be gone: its variants, its
-  // gate, whether it drives. Read() may throw.
-  static ScenarioFile Recorded(const std::filesystem::path& file);
-
-  // One episode of one variant, checked whole; without an episode nothing is drawn. Throws
-  // InputError.
-  Scenario Read(std::optional<std::uint64_t> episode = 0, const Variant& variant = {}) const;
-
-  // Episode `episode` as if `randomise` had drawn this for it. Throws InputError.
-  Scenario ReadDrawn(std::uint64_t episode, const Drawn& drawn) const;
-
-  // What `randomise` draws, as written but for what is set.
-  const std::vector<RandomisedKey>& randomised() const { return randomised_; }
-  // Whether what `randomise` draws can differ between episodes.
-  bool draws_differ() const;
-  // What `randomise` draws for an episode.
-  Drawn DrawnOf(std::uint64_t episode) const;
-
-  const std::filesystem::path& file() const { return file_; }
-  // Every file that was read for it so far, each once: what it gives does not change with them.
-  const InputFiles& files() const { return files_; }
-  const std::vector<Variant>& variants() const { return variants_; }
-  int seed() const { return seed_; }
-  std::uint64_t episode() const { return episode_; }  // the key `episode`
-  std::string name() const;                           // the key `name`, else the file's stem
-  ConfigNode gate() const;                            // null: none
-  bool drives() const;                                // through physics: it can fail
-  // Reads each variant, and each choice of `randomise` in it, as some of the first episodes would
-  // be: throws InputError where none of them makes sense (a key that is none, a robot unknown).
-  void CheckDraws() const;
-
- private:
-  enum class Files { kCheck, kMayBeGone };
-  ScenarioFile(std::optional<std::string> text, const std::filesystem::path& file,
-               const std::vector<Override>& overrides, Trust trust, Files files,
-               InputFiles inputs = {});
-  // `drawn`: of the episode; null: there is none, and nothing is drawn.
-  Scenario ReadWith(std::optional<std::uint64_t> episode, const Drawn* drawn,
-                    const Variant& variant, const Variant& forced) const;
-  const ConfigNode& SiteTree(const std::filesystem::path& file) const;
-  void ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
-                    Scenario& s) const;
-
-  std::filesystem::path file_;
-  InputFiles files_;
-  std::optional<std::string> text_;  // none: the file's
-  ConfigNode root_;
-  std::vector<std::pair<std::string, ConfigNode>> overrides_;
-  std::vector<RandomisedKey> randomised_;
-  Sampling sampling_ = Sampling::kIndependent;  // how they are drawn
-  std::vector<Variant> variants_;
-  int seed_ = 0;
-  std::uint64_t episode_ = 0;
-  struct SiteFiles;
-  std::shared_ptr<SiteFiles> site_files_;
-};
-
-// The program that is yet to be asked for its plan; nullptr: none is run.
-const PlanCommand* ProgramToAsk(const ScenarioSpec& spec);
-
 // The line to print before that program is run (ProgramLine); empty: none is. Throws as
 // CheckProgram.
 std::string ProgramAnnounced(const Scenario& scenario);
@@ -132,36 +35,10 @@ std::string ProgramAnnounced(const Scenario& scenario);
 // Throws InputError where one is yet to be asked.
 void RefuseProgram(const Scenario& scenario);
 
-// Whether its mission says where to drive, and there is no plan but its places.
-bool LeadsItself(const ScenarioSpec& spec);
-
-// Whether its plan needs the floor's risk, or its key `risk` asks for it: of any other nothing is
-// said of risk.
-bool AsksForRisk(const ScenarioSpec& spec);
-
-// The scenario itself, whatever its matrix says: episode 0, or the one that it names.
-Scenario ReadScenario(const std::filesystem::path& file,
-                      const std::vector<Override>& overrides = {}, Trust trust = Trust::kNone);
-
 // The files it was read from, beside its own: site, map, image, robot, plan.
 std::vector<std::filesystem::path> FilesRead(const Scenario& scenario);
 
 // These and its own.
 std::vector<std::filesystem::path> InputsOf(const Scenario& scenario);
-
-// The scenario with every default stated, the site in it, paths valid from `folder` and the SHA-256
-// of each file read and of each of `more`. Reading it gives the same scenario; resolving it again
-// gives the same text. `made`: the plan that its program has made, so that whoever reads it gets
-// that plan and runs nothing.
-std::string ResolvedScenario(const Scenario& scenario, const std::filesystem::path& folder,
-                             const std::vector<std::filesystem::path>& more = {},
-                             const std::filesystem::path& made = {});
-
-// Writes scenario.resolved.yaml into the folder, and beside it copies of the files that it names,
-// so that the folder may be moved: reading takes the copies (base/input_files.h). Throws
-// InputError.
-void WriteResolvedScenario(const Scenario& scenario, const std::filesystem::path& folder,
-                           const std::vector<std::filesystem::path>& more = {},
-                           const std::filesystem::path& made = {});
 
 }  // namespace floorproof

@@ -11,6 +11,7 @@
 #include "controllers/tracker.h"
 #include "env/failures/detector.h"
 #include "env/map/site_keys.h"
+#include "run/scenario/matrix.h"
 #include "run/scenario/named_plugin.h"
 #include "run/scenario/scenario_parts.h"
 #include "run/scenario/written_faults.h"

@@ -85,6 +85,16 @@ struct ScenarioSpec {
   VideoParams video;
 };
 
+// The program that is yet to be asked for its plan; nullptr: none is run.
+const PlanCommand* ProgramToAsk(const ScenarioSpec& spec);
+
+// Whether its mission says where to drive, and there is no plan but its places.
+bool LeadsItself(const ScenarioSpec& spec);
+
+// Whether its plan needs the floor's risk, or its key `risk` asks for it: of any other nothing is
+// said of risk.
+bool AsksForRisk(const ScenarioSpec& spec);
+
 inline PluginSpec PlannerOf(const ScenarioSpec& spec) {
   return {spec.planner_name, spec.planner_params};
 }

@@ -6,6 +6,7 @@
 #include "controllers/estimator.h"
 #include "run/scenario/agents.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 #include "run/scenario/scenario_parts.h"
 
 namespace floorproof {

@@ -3,9 +3,11 @@
 // estimator.
 #pragma once
 
-#include "run/scenario/scenario.h"
+#include "base/config.h"
 
 namespace floorproof {
+
+struct Scenario;
 
 // Starts the scenario's sensors on a bare floor, and its estimator where the robot will stand. (An
 // episode starts them again.) Throws what they refuse, as an InputError that says where the key is

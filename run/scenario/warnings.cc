@@ -9,6 +9,7 @@
 #include "base/quantity.h"
 #include "env/scene/models_folder.h"
 #include "env/scene/restitution.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "run/scenario/scenario.h"
-
 namespace floorproof {
+
+struct Scenario;
 
 // One line each: the site's own, measured limits that are of another robot or floor, restitution
 // that the time step cannot give, and which files are read that lie neither in the scenario's

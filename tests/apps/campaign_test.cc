@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "run/campaign/episode_maker.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/apps/campaign_program.h"
 
 namespace floorproof {

@@ -15,6 +15,8 @@
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
 #include "run/campaign/campaign_store.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "stats/outward.h"
 #include "tests/own_folder.h"
 #include "tests/places.h"

@@ -21,6 +21,7 @@
 #include "env/geometry/distance.h"
 #include "planners/audit/find_samples.h"
 #include "run/episode/execute.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/audit/study_rooms.h"
 
 namespace floorproof::testing {

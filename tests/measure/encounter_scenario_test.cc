@@ -16,6 +16,7 @@
 #include "measure/drive_plans.h"
 #include "measure/plan_floors.h"
 #include "run/episode/make_plan.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/robots.h"
 
 namespace floorproof {

@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "run/episode/records.h"
 #include "run/scenario/chance.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "run/episode/execute.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 
 namespace floorproof {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "run/episode/make_plan.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -2,6 +2,7 @@
 // The bundled audits of three sites, each driven in five orders: Table 3 of "audit-sampling".
 #include <map>
 
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 #include "tests/run/scenario_text.h"
 

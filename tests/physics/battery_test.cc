@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "run/episode/records.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 #include "validate/rig.h"
 

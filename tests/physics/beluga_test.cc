@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 #include "validate/rig.h"
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "run/scenario/override.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

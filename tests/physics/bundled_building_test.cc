@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 #include "tests/run/scenario_text.h"
 

@@ -3,6 +3,7 @@
 // docs/gallery.md say, at the place where the hazard is.
 #include <ostream>
 
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 #include "tests/run/scenario_text.h"
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/streams.h"
+#include "run/scenario/scenario.h"
 #include "tests/physics/one_caster.h"
 #include "tests/run/scenario_text.h"
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "controllers/reconfiguration.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 #include "tests/run/scenario_text.h"
 #include "validate/rig.h"

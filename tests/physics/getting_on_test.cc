@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/streams.h"
+#include "run/scenario/override.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "base/streams.h"
+#include "run/scenario/override.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -5,6 +5,9 @@
 
 #include "controllers/estimator.h"
 #include "run/episode/make_plan.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/override.h"
+#include "run/scenario/scenario.h"
 #include "tests/physics/real_map.h"
 
 namespace floorproof {

@@ -5,6 +5,7 @@
 
 #include "env/scene/measured_block.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 #include "tests/places.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"

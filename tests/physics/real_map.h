@@ -4,6 +4,8 @@
 #pragma once
 
 #include "env/map/init_files.h"
+#include "run/scenario/override.h"
+#include "run/scenario/scenario.h"
 #include "tests/places.h"
 #include "tests/robots.h"
 #include "tests/run/scenario_text.h"

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "controllers/odometry.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 #include "validate/ladder.h"
 #include "validate/rig.h"

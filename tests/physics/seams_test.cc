@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "run/episode/make_plan.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario.h"
 #include "tests/physics/real_map.h"
 #include "validate/vertical_motion.h"
 

@@ -2,6 +2,7 @@
 // What stands, rocks or leans has not tipped; what turns over an edge was not thrown back.
 #include <gmock/gmock.h>
 
+#include "run/scenario/override.h"
 #include "tests/physics/one_caster.h"
 #include "tests/run/scenario_text.h"
 #include "validate/rig.h"

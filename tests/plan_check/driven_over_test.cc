@@ -9,6 +9,7 @@
 
 #include "run/plan_check/plan_check.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "run/episode/encounter_table.h"
+#include "run/scenario/override.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -12,6 +12,7 @@
 
 #include "env/scene/models_folder.h"
 #include "run/plan_check/plan_check.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"
 

@@ -12,6 +12,7 @@
 #include "run/episode/plain_draws.h"
 #include "run/episode/plan_inputs.h"
 #include "run/episode/records.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/planners/planted_modes.h"
 #include "tests/run/scenario_text.h"
 

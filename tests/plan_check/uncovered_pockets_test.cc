@@ -8,6 +8,8 @@
 #include "run/plan_check/plan_budget.h"
 #include "run/plan_check/plan_check.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/override.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

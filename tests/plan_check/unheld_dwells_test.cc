@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "run/scenario/scenario_file.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "run/scenario/scenario.h"
 #include "tests/render/room.h"
 #include "tests/run/scenario_text.h"
 

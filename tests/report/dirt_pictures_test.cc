@@ -11,6 +11,7 @@
 #include "media/media.h"
 #include "report/drive_and_film.h"
 #include "report/sample_marks.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/own_folder.h"
 
 namespace floorproof {

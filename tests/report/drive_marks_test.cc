@@ -10,6 +10,7 @@
 #include "media/media.h"
 #include "report/pictures.h"
 #include "run/episode/execute.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 
 namespace floorproof {

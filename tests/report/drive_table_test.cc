@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/text_width.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

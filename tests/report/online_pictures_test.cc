@@ -16,6 +16,7 @@
 #include "report/swept_again.h"
 #include "run/episode/execute.h"
 #include "run/episode/tool_meter.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/own_folder.h"
 
 namespace floorproof {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "run/scenario/scenario.h"
 #include "run/scenario/written_safety.h"
 
 namespace floorproof {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "report/rates.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "run/episode/blow_meter.h"
 #include "run/episode/encounter_table.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

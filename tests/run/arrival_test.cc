@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run/episode/records.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

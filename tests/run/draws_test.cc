@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "base/params.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -11,6 +11,7 @@
 #include "run/campaign/campaign_merge.h"
 #include "run/campaign/episode_maker.h"
 #include "run/campaign/summary_json.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"

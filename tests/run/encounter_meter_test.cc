@@ -7,6 +7,7 @@
 
 #include "run/episode/encounter_table.h"
 #include "run/scenario/floors.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

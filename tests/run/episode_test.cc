@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "run/episode/records.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -12,6 +12,8 @@
 #include "run/episode/ask_program.h"
 #include "run/episode/records.h"
 #include "run/scenario/plan_file.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

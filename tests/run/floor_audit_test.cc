@@ -13,6 +13,9 @@
 #include "run/campaign/episode_row.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
+#include "run/scenario/override.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario.h"
 #include "run/scenario/warnings.h"
 #include "tests/run/scenario_text.h"
 

@@ -12,6 +12,8 @@
 #include "planners/risk/risk_meter.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 #include "tests/planners/risk_floors.h"
 #include "tests/run/scenario_text.h"

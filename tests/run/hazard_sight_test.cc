@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "run/scenario/override.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

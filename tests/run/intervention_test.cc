@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "run/episode/records.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario.h"
 #include "tests/controllers/allocation_guard.h"
 #include "tests/robots.h"
 #include "tests/run/scenario_text.h"

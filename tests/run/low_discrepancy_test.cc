@@ -11,6 +11,8 @@
 #include <tuple>
 
 #include "base/params.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

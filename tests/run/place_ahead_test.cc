@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "run/episode/intervention.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "run/scenario/scenario_file.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -8,6 +8,8 @@
 
 #include "run/campaign/campaign_about.h"
 #include "run/rare/rare_json.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/run/rare_scenario.h"
 
 namespace floorproof {

@@ -10,6 +10,7 @@
 #include "run/campaign/campaign_merge.h"
 #include "run/campaign/summary_json.h"
 #include "run/scenario/chance.h"
+#include "run/scenario/scenario_file.h"
 #include "stats/binomial.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"

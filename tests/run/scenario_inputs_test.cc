@@ -7,6 +7,8 @@
 #include "run/campaign/campaign_about.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"
 

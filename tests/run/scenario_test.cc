@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/scenario/scenario.h"
 
 #include <gmock/gmock.h>
 
 #include "base/file_output.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "run/scenario/warnings.h"
 #include "tests/run/scenario_text.h"
 

@@ -10,6 +10,8 @@
 
 #include "run/episode/episode.h"
 #include "run/episode/execute.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/own_folder.h"
 
 namespace floorproof {

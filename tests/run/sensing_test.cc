@@ -10,6 +10,8 @@
 #include "run/campaign/episode_maker.h"
 #include "run/episode/records.h"
 #include "run/scenario/carried_sensors.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/controllers/allocation_guard.h"
 #include "tests/robots.h"
 #include "tests/run/scenario_text.h"

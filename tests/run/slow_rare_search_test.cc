@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "run/rare/rare_search.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 #include "tests/run/rare_scenario.h"
 #include "tests/slurp.h"

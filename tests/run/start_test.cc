@@ -8,6 +8,8 @@
 #include "run/episode/intervention.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
+#include "run/scenario/override.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

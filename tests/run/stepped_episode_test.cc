@@ -10,6 +10,8 @@
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
 #include "run/episode/robot_side.h"
+#include "run/scenario/agents.h"
+#include "run/scenario/scenario.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "run/episode/records.h"
+#include "run/scenario/resolved_scenario.h"
+#include "run/scenario/scenario.h"
 #include "run/scenario/written_safety.h"
 #include "tests/run/scenario_text.h"
 

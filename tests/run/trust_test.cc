@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "run/episode/make_plan.h"
+#include "run/scenario/scenario_file.h"
 #include "tests/places.h"
 #include "tests/run/scenario_text.h"
 

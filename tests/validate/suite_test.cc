@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "run/scenario/scenario_file.h"
 #include "stats/binomial.h"
 #include "validate/suite/bench_floor.h"
 #include "validate/suite/method_search.h"

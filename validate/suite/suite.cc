@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/interrupt.h"
+#include "run/scenario/scenario.h"
 #include "stats/binomial.h"
 #include "stats/demonstration.h"
 #include "validate/suite/method_search.h"

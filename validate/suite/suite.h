@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "run/scenario/scenario.h"
+#include "run/scenario/override.h"
 #include "validate/suite/method.h"
 
 namespace floorproof {

@@ -12,6 +12,7 @@
 #include "base/params.h"
 #include "run/episode/execute.h"
 #include "run/scenario/plan_file.h"
+#include "run/scenario/scenario_file.h"
 #include "validate/parallel.h"
 
 namespace floorproof {

@@ -11,6 +11,8 @@
 
 namespace floorproof {
 
+struct Scenario;
+
 // The method's runs on one robot.
 class SuiteDrive {
  public:

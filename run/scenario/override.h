@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// A key that the command line, or whoever calls, sets in a scenario.
+#pragma once
+
+#include <string>
+
+namespace floorproof {
+
+struct Override {
+  std::string key_path, value;  // --set key.path=value; the value is YAML
+};
+
+}  // namespace floorproof
