@@ -12,7 +12,8 @@ The check fails, one line for each finding, when
   an #include or a link line of CMake runs against the arrows,
   an arrow is drawn that no #include uses, or the arrows run in a circle,
   a folder with sources is not drawn,
-  a library is used outside the rooms that the page's table allows it.
+  a library is used outside the rooms that the page's table allows it,
+  a header reaches more files, through whatever #include, than the page's table of limits says.
 
 Tests, benchmarks and fuzz targets may include every room; no room may include them.
 """
@@ -83,6 +84,23 @@ def allowed_libraries(page, rooms):
     return allowed
 
 
+def reach_limits(page):
+    """The headers of the page's table of limits, and how many files each may reach."""
+    rows = re.findall(r"^\| `([\w/]+\.h)` \| (\d+) \|", page, re.M)
+    return {header: int(most) for header, most in rows}
+
+
+def reached_by(header, included_by):
+    """The files outside tests, benchmarks and fuzz targets that see the header."""
+    seen, todo = set(), [header]
+    while todo:
+        for name in included_by.get(todo.pop(), ()):
+            if name not in seen:
+                seen.add(name)
+                todo.append(name)
+    return seen
+
+
 def sources(tree):
     for path in sorted(tree.rglob("*")):
         name = path.relative_to(tree).as_posix()
@@ -113,10 +131,12 @@ def findings(tree):
     reached, circles = reach(arrows)
     found = [f"{PAGE}: the arrows of {room} lead back to it" for room in circles]
     allowed = allowed_libraries(page, arrows)
-    used = set()
+    used, included_by = set(), {}
     for name, text in sources(tree):
         if name.startswith(FREE):
             continue
+        for header in re.findall(r'^#include "([^"]+)"', text, re.M):
+            included_by.setdefault(header, []).append(name)
         room = room_of(name, arrows)
         if room is None:
             found.append(f"{name}: its folder is not drawn in {PAGE}")
@@ -135,6 +155,12 @@ def findings(tree):
             for library, header in LIBRARIES.items():
                 if theirs and theirs.group(1).startswith(header) and library not in allowed[room]:
                     found.append(f"{name}:{number}: {room} may not use {library}")
+    for header, most in reach_limits(page).items():
+        count = len(reached_by(header, included_by))
+        if count == 0:
+            found.append(f"{PAGE}: nobody includes {header}")
+        elif count > most:
+            found.append(f"{header}: reaches {count} files, at most {most}")
     for room, targets in sorted(arrows.items()):
         includes = [target + "/" for source, target in used if source == room]
         found += [f"{PAGE}: no #include uses the arrow from {room} to {target}"

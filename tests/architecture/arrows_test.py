@@ -55,6 +55,14 @@ class Arrows(unittest.TestCase):
         self.assertEqual(self.of({"top/a.cc": '#include "base/c.h"\n'}),
                          ["docs/architecture.md: no #include uses the arrow from top to middle"])
 
+    def test_a_header_that_reaches_too_many_files(self):
+        limit = PAGE + "\n| header | files |\n|---|---|\n| `base/c.h` | {} |\n"
+        for most, said in ((2, []), (1, ["base/c.h: reaches 2 files, at most 1"])):
+            self.assertEqual(self.of({"docs/architecture.md": limit.format(most)}), said)
+        gone = limit.format(2).replace("base/c.h", "base/d.h")
+        self.assertEqual(self.of({"docs/architecture.md": gone}),
+                         ["docs/architecture.md: nobody includes base/d.h"])
+
     def test_a_circle(self):
         page = PAGE.replace('base["base"]', 'base["base"]\n  base --> top')
         self.assertIn("docs/architecture.md: the arrows of base lead back to it",
