@@ -129,6 +129,8 @@ class EachParam : public ParamVisitor {
   }
   void Group(const char* name, const std::function<void(ParamVisitor&)>& visit,
              const char*) override {
+    ParamGroup group;
+    each_(path_ + name, group);
     EachParam inner(path_ + name + ".", each_);
     visit(inner);
   }
@@ -138,6 +140,7 @@ class EachParam : public ParamVisitor {
   Each& each_;
 };
 
+ConfigNode Written(const ParamGroup&) { return ConfigNode::Map(); }
 ConfigNode Written(double value) { return ConfigNode::Scalar(FormatDouble(value)); }
 ConfigNode Written(int value) { return ConfigNode::Scalar(std::to_string(value)); }
 ConfigNode Written(bool value) { return ConfigNode::Scalar(value ? "true" : "false"); }

@@ -71,8 +71,11 @@ void ReadParams(const ConfigNode& node, const std::string& path,
                 const std::function<void(ParamVisitor&)>& visit,
                 const std::vector<std::string>& also_allowed = {});
 // Parameters as data, in the order in which they are visited: keys, those of groups as `group.key`,
-// with their values.
-using ParamValue = std::variant<double, int, bool, std::string, std::optional<double>>;
+// with their values. A group comes before its parameters, of which it may have none.
+struct ParamGroup {
+  bool operator==(const ParamGroup&) const = default;
+};
+using ParamValue = std::variant<double, int, bool, std::string, std::optional<double>, ParamGroup>;
 using ParamValues = std::vector<std::pair<std::string, ParamValue>>;
 ParamValues ValuesOf(Configurable& source);
 ParamValues ValuesOf(const std::function<void(ParamVisitor&)>& visit);

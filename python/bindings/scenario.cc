@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenarios and their sites: read, checked, resolved, planned.
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 

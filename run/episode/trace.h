@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // trace.csv as one table: a row a column. docs/results.md is held against it. A new column is a
-// member, its row below, and the place where it is recorded (recorder.h).
+// member, its row below, and the place where it is recorded (recorder.cc).
 #pragma once
 
 #include <array>

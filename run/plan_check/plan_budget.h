@@ -18,8 +18,8 @@ struct PlanBudget {
 
 // Energy: the hotel load all the time, and while it moves what the motors draw on level floor at
 // the plan's mean speed (SteadyMotorsPower). Nothing that goes wrong is in it: slipping, waiting
-// for help, faults, hazards that are driven over. Starts the scenario's tracker on the plan. Throws
-// InputError as Tracker::Start does.
+// for help, faults, hazards that are driven over. Throws InputError as Tracker::Start
+// does.
 PlanBudget EstimateBudget(const Scenario& scenario, const PlanResult& plan);
 
 }  // namespace floorproof

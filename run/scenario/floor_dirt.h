@@ -3,7 +3,6 @@
 // are taken.
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "base/config.h"

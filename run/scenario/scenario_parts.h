@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a scenario's tree, each read and checked: what scenario.cc does once overrides,
+// The parts of a scenario's tree, each read and checked: what scenario_file.cc does once overrides,
 // variant and draws are in the tree. Used there only.
 #pragma once
 

@@ -60,7 +60,7 @@ struct ScenarioSpec {
   PlannerPromises promises;                 // of a planner of known floors
   OnlineParams online;                      // of one of unknown floors
   bool draws_on_the_way = false;            // that one uses its seed
-  std::string planner_name;                 // empty: plan_file
+  std::string planner_name;                 // its name, or the program's; a file has none
   std::optional<PlanCommand> plan_command;  // plan_file is what it made once, if it has
   std::filesystem::path plan_file;
   Path user_plan;                     // what it holds, or the mission's places
@@ -88,7 +88,7 @@ struct ScenarioSpec {
 // The program that is yet to be asked for its plan; nullptr: none is run.
 const PlanCommand* ProgramToAsk(const ScenarioSpec& spec);
 
-// Whether its mission says where to drive, and there is no plan but its places.
+// Whether nobody makes a plan: its mission says where to drive, or whoever steps it does.
 bool LeadsItself(const ScenarioSpec& spec);
 
 // Whether its plan needs the floor's risk, or its key `risk` asks for it: of any other nothing is

@@ -81,7 +81,7 @@ ConfigNode SafetySchema() {
 void KeepMonitorsOf(std::span<const Reading> told, SafetyPlan& plan) {
   const auto hears = [&](Reading r) { return std::ranges::find(told, r) != told.end(); };
   std::erase_if(plan.monitors, [&](const PluginSpec& spec) {
-    const auto monitor = MakePlugin(Monitors(), spec.name, "monitors");
+    const auto monitor = MakePlugin(Monitors(), spec, "monitors");
     return (monitor->by_estimate() && hears(Reading::kTruth)) ||
            !std::ranges::all_of(monitor->Needs(), hears);
   });
