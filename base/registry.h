@@ -110,6 +110,15 @@ std::unique_ptr<T> MakePlugin(std::span<const PluginEntry<T>> table, const Plugi
   return plugin;
 }
 
+// Makes each of them as a Named {name, plug-in}, in their order. Throws as MakePlugin does.
+template <class Named, class T>
+std::vector<Named> MakePlugins(std::span<const PluginEntry<T>> table,
+                               std::span<const PluginSpec> specs, std::string_view key) {
+  std::vector<Named> plugins;
+  for (const PluginSpec& spec : specs) plugins.push_back({spec.name, MakePlugin(table, spec, key)});
+  return plugins;
+}
+
 }  // namespace floorproof
 
 // In a plug-in's file, behind its class (which may live in an anonymous namespace): defines the

@@ -28,18 +28,11 @@ std::vector<std::string> PathsOf(const Mission& mission) {
   return paths;
 }
 
-std::vector<NamedMonitor> MonitorsAsNamed(const SafetyPlan& plan) {
-  std::vector<NamedMonitor> monitors;
-  for (const PluginSpec& spec : plan.monitors)
-    monitors.push_back({spec.name, MakePlugin(Monitors(), spec, "monitors")});
-  return monitors;
-}
-
 }  // namespace
 
 Supervisor::Supervisor(const SafetyPlan& plan, const RobotSpec& robot, const HazardMap& known)
     : plan_(plan),
-      monitors_(MonitorsAsNamed(plan)),
+      monitors_(MakePlugins<NamedMonitor>(Monitors(), plan.monitors, "monitors")),
       robot_(robot),
       known_(known),
       comes_to_rest_s_(ComesToRest_s(robot)),

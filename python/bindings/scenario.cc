@@ -87,11 +87,7 @@ nb::dict ReadSiteAlone(const fs::path& file, const std::optional<std::string>& t
   return SiteDict(ReadSite(site, file.parent_path(), files).map);
 }
 
-std::vector<std::string> SensorsOf(const Scenario& s) {
-  std::vector<std::string> names;
-  for (const SensorSpec& sensor : s.spec.sensors) names.push_back(sensor.plugin.name);
-  return names;
-}
+std::vector<std::string> SensorsOf(const Scenario& s) { return SensorNames(s.spec); }
 
 // --- plans ---
 

@@ -14,10 +14,7 @@ std::vector<NamedSensor> MakeSensors(const ScenarioSpec& spec) {
 }
 
 std::vector<NamedDetector> MakeDetectors(const ScenarioSpec& spec) {
-  std::vector<NamedDetector> detectors;
-  for (const PluginSpec& detector : spec.detectors)
-    detectors.push_back({detector.name, MakePlugin(Detectors(), detector, "failures")});
-  return detectors;
+  return MakePlugins<NamedDetector>(Detectors(), spec.detectors, "failures");
 }
 
 Agents MakeAgents(const ScenarioSpec& spec) {

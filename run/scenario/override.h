@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A key that the command line, or whoever calls, sets in a scenario.
+// A key that the command line or a caller sets in a scenario.
 #pragma once
 
 #include <string>

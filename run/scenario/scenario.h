@@ -13,7 +13,7 @@
 
 namespace floorproof {
 
-// What a resolved scenario repeats as it was written.
+// The parts of the text that a resolved scenario repeats as they were written.
 struct ScenarioText {
   ConfigNode randomise, matrix, gate;  // null: not there
   ConfigNode site;                     // overrides and draws applied

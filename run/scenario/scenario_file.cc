@@ -78,8 +78,8 @@ ConfigNode ReadTree(const fs::path& file, const std::string& kind, const InputFi
   return ReadYamlFile(file, files, kind);
 }
 
-// What is typed is meant from the folder in which it is typed, where a file lies there; else it is
-// read as if it stood in the scenario.
+// A path of an override is relative to the current folder if that has such a file; otherwise it is
+// relative to the scenario's folder, as paths in the scenario are.
 void FindFromHere(const std::string& key, const fs::path& folder, ConfigNode& value) {
   std::error_code ignored;
   for (auto& [name, part] : value.entries) FindFromHere(key + "." + name, folder, part);
@@ -137,15 +137,15 @@ bool Replaces(const std::string& whole, const std::string& key) {
          ((whole == "plan.file" || whole == "plan.command") && key.starts_with("plan."));
 }
 
-// The files that a resolved scenario was resolved from: a copy that is kept beside it stands in for
-// each; where there is none, one that is no longer the same is refused.
+// The files that a resolved scenario was made from. A copy kept beside it replaces each one; a file
+// without a copy is refused if it has changed since.
 void TakeListedFiles(const ConfigNode& root, const fs::path& folder, bool check,
                      const InputFiles& inputs) {
   const ConfigNode* files = root.Find("files");
   if (files == nullptr) return;
   if (!files->IsMap()) throw InputError(files->mark, "files", "", "must be a map of path: SHA-256");
   for (const auto& [path, node] : files->entries) {
-    const bool bundled = path.starts_with(kBundled);  // nothing stands in for what is trusted
+    const bool bundled = path.starts_with(kBundled);  // trusted: never replaced by a copy
     const fs::path named = bundled ? ModelsFolder() / path.substr(kBundled.size()) : folder / path;
     const std::string hash = AsString(node, "files." + path);
     if (const fs::path copy = KeptCopy(folder, hash);
@@ -229,7 +229,7 @@ ScenarioFile::ScenarioFile(std::optional<std::string> text, const fs::path& file
   randomised_ = ReadRandomise(root_.Find("randomise"), sampling_);
   if (sampling_ == Sampling::kLowDiscrepancy && !randomised_.empty())
     StateDimensions(randomised_, *root_.Find("randomise"));
-  // What is set is not drawn, nor in the record.
+  // A key that an override sets is not drawn, and is not in the record.
   const auto is_set = [&](const std::string& key) {
     return std::ranges::any_of(overrides_, [&](const auto& o) {
       return Replaces(o.first, key) || Replaces(key, o.first);
@@ -241,7 +241,7 @@ ScenarioFile::ScenarioFile(std::optional<std::string> text, const fs::path& file
     if (draws->entries.empty()) root_.Remove("randomise");
   }
   variants_ = ReadMatrix(root_.Find("matrix"));
-  // Of all variants: labelled ones need not change the same keys.
+  // The keys of all variants: labelled variants need not change the same keys.
   std::set<std::string> set_by_variants;
   for (const Variant& variant : variants_)
     for (const auto& [key, value] : variant.overrides) set_by_variants.insert(key);
@@ -250,7 +250,7 @@ ScenarioFile::ScenarioFile(std::optional<std::string> text, const fs::path& file
       if (Replaces(key, o.first) || Replaces(o.first, key))
         throw InputError(o.second.mark, o.first, "",
                          "the scenario's matrix sets " + key + "; --set matrix=null takes it away");
-  for (const RandomisedKey& r : randomised_) {  // a part of what a variant sets may be drawn
+  for (const RandomisedKey& r : randomised_) {  // a key below one that a variant sets may be drawn
     const auto first = set_by_variants.lower_bound(r.key_path);
     const auto below = set_by_variants.lower_bound(r.key_path + ".");
     for (const auto at : {first, below})

@@ -42,12 +42,12 @@ class ScenarioFile {
   // there.
   static ScenarioFile FromText(const std::string& text, const std::filesystem::path& file,
                                const std::vector<Override>& overrides = {});
-  // Of a file that was packed, perhaps on another machine: it reads what was packed, and of what is
-  // not in it the files of this machine. Messages are those of the file that was packed.
+  // Of a file that was packed, perhaps on another machine: packed files are read
+  // from the pack, all others from this machine. Messages are those of the file that was packed.
   static ScenarioFile Unpack(const PackedScenario& packed);
   PackedScenario Pack() const;
-  // One that is no more than looked into, as the files that it names may be gone: its variants, its
-  // gate, whether it drives. Read() may throw.
+  // Only for variants(), gate() and drives(): the files that it names may be gone, and Read() may
+  // throw.
   static ScenarioFile Recorded(const std::filesystem::path& file);
 
   // One episode of one variant, checked whole; without an episode nothing is drawn. Throws
@@ -57,7 +57,7 @@ class ScenarioFile {
   // Episode `episode` as if `randomise` had drawn this for it. Throws InputError.
   Scenario ReadDrawn(std::uint64_t episode, const Drawn& drawn) const;
 
-  // What `randomise` draws, as written but for what is set.
+  // The keys of `randomise`, as written, without those that an override sets.
   const std::vector<RandomisedKey>& randomised() const { return randomised_; }
   // Whether what `randomise` draws can differ between episodes.
   bool draws_differ() const;

@@ -449,9 +449,8 @@ void ReadSensors(const ConfigNode& root, const std::vector<Reading>& estimator_n
 void ReadFaultsPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = Written(root, "faults");
   if (node == nullptr) return;
-  std::vector<std::string> sensors;
-  for (const SensorSpec& sensor : s.spec.sensors) sensors.push_back(sensor.plugin.name);
-  s.world.faults = ReadFaults(*node, {s.world.robot.spec, sensors}, s.world.physics.timestep_s);
+  s.world.faults =
+      ReadFaults(*node, {s.world.robot.spec, SensorNames(s.spec)}, s.world.physics.timestep_s);
 }
 
 void ReadDirtPart(const ConfigNode& root, Scenario& s) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scenario says: names, parameters, draws, and what stands in the tables that it names.
+// The content of a scenario: names, parameters, draws, and the data of the files that it names.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +26,13 @@
 
 namespace floorproof {
 
-// Who makes the plan.
+// The source of the plan.
 enum class PlanBy {
   kPlanner,  // of known floors, before the drive
   kOnline,   // a planner of unknown floors, on the way
   kProgram,  // of the user's
   kFile,
-  kNobody,  // the mission says where to drive, or whoever steps the episode
+  kNobody,  // no plan: the mission gives the places, or a caller steps the episode
 };
 
 struct SensorSpec {
@@ -49,7 +49,7 @@ struct ScenarioSpec {
   Drawn drawn;                    // what `randomise` drew for it
   std::set<std::string> written;  // the keys at its top
   Sampling sampling = Sampling::kIndependent;
-  std::filesystem::path site_file;  // empty: the site stands in the scenario
+  std::filesystem::path site_file;  // empty: the site is written in the scenario
 
   std::string robot_name;
   RobotChanges robot_changes;
@@ -88,12 +88,14 @@ struct ScenarioSpec {
 // The program that is yet to be asked for its plan; nullptr: none is run.
 const PlanCommand* ProgramToAsk(const ScenarioSpec& spec);
 
-// Whether nobody makes a plan: its mission says where to drive, or whoever steps it does.
+// Whether there is no plan (PlanBy::kNobody).
 bool LeadsItself(const ScenarioSpec& spec);
 
 // Whether its plan needs the floor's risk, or its key `risk` asks for it: of any other nothing is
 // said of risk.
 bool AsksForRisk(const ScenarioSpec& spec);
+
+std::vector<std::string> SensorNames(const ScenarioSpec& spec);
 
 inline PluginSpec PlannerOf(const ScenarioSpec& spec) {
   return {spec.planner_name, spec.planner_params};

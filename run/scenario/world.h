@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one episode is driven in: floor, robot, physics, where it starts, what breaks on the way.
+// The world of one episode: site, robot, physics, start and goal, scheduled faults, dirt.
 #pragma once
 
 #include <optional>
